@@ -1,0 +1,68 @@
+/// @file traversal.h
+/// Ray traversal as a replaceable stage. All implementations report the same hits: the nearest one, equal distances
+/// decided by the smaller (instance, primitive), so a hit never depends on a tree's shape, its history or the backend.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "renderer/vulkan/device.h"
+#include "shaders/shared/queue.h"
+#include "shaders/shared/scene.h"
+
+namespace hipr {
+
+enum class TraversalKind { Embree, Bvh, RayQuery };
+
+/// A geometry handed to a traversal. Host pointers stay valid until the geometry is replaced or removed.
+struct GeometryView {
+    const glm::vec3* positions; ///< host copy; padded by at least 4 readable bytes behind the last vertex
+    uint32_t vertexCount;
+    const glm::uvec3* triangles;
+    uint32_t triangleCount;
+    VkDeviceAddress positionsAddress, trianglesAddress;
+    bool sameTopology;          ///< only positions differ from the geometry that was in this slot: a refit will do
+};
+
+/// A queue of rays. Addresses for device traversals, pointers for host ones (null unless Device::hostMemory()).
+struct TraceQueue {
+    const Buffer* header;       ///< gpu::QueueHeader
+    uint64_t headerOffset;
+    const Buffer* rays;         ///< gpu::Ray[]
+    const Buffer* results;      ///< nearest: gpu::Hit[]; occlusion: uint32_t[]
+    uint32_t mask;              ///< gpu::RAY_MASK_*
+};
+
+class Traversal {
+public:
+    virtual ~Traversal() = default;
+
+    /// Puts a geometry into a slot (the index of its GeometryRecord), or frees the slot when `view` is null.
+    virtual void setGeometry(uint32_t slot, const GeometryView* view) = 0;
+    /// All instances, in InstanceRecord order. Geometry slots that hold nothing are skipped.
+    virtual void setInstances(const std::vector<gpu::InstanceRecord>& instances) = 0;
+    /// Builds what changed since the last commit (blocking). Builds of several geometries run in parallel.
+    virtual void commit() = 0;
+
+    /// For SceneRecord::bvh; 0 when the traversal needs none.
+    virtual VkDeviceAddress sceneAddress() const { return 0; }
+
+    /// Host traversals run between submissions on mapped queues; device ones record into a command buffer.
+    virtual bool onHost() const = 0;
+    virtual void nearest(const TraceQueue& queue) = 0;
+    virtual void occluded(const TraceQueue& queue) = 0;
+    /// `scene` is the address of the SceneRecord; groups come from the queue header (indirect dispatch).
+    virtual void recordNearest(VkCommandBuffer cmd, VkDeviceAddress scene, const TraceQueue& queue) = 0;
+    virtual void recordOccluded(VkCommandBuffer cmd, VkDeviceAddress scene, const TraceQueue& queue) = 0;
+
+    /// Host bytes that Device::memory() does not see (Embree's trees), for the memory report.
+    virtual uint64_t hostBytes() const = 0;
+};
+
+/// Throws std::runtime_error when the device cannot run `kind` (Embree needs Device::hostMemory()).
+std::unique_ptr<Traversal> createTraversal(TraversalKind kind, Device& device);
+
+/// The kind that measures best for the class of device: see docs/measurements.md.
+TraversalKind defaultTraversal(const Device& device);
+
+} // namespace hipr

@@ -1,0 +1,45 @@
+/// @file film.h
+/// Arbitrary output variables (AOVs): what can be asked for and what comes back.
+#pragma once
+
+#include "renderer/api/types.h"
+
+namespace hipr {
+
+/// Colours are scene-linear and unclamped. Ids are -1 where no surface is seen. "First hit" AOVs come from one ray
+/// through the pixel centre; color and albedo are means over all samples of the pixel.
+enum class AovKind : uint32_t {
+    Color,       ///< float4, premultiplied alpha
+    Albedo,      ///< float3
+    Depth,       ///< float, projected depth 0..1, 1 where nothing is seen
+    CameraDepth, ///< float, distance along the view axis in scene units, 0 where nothing is seen
+    Normal,      ///< float3, world-space shading normal, 0 where nothing is seen
+    Neye,        ///< float3, view-space shading normal
+    PrimId,      ///< int
+    InstanceId,  ///< int
+    ElementId,   ///< int, authored face index
+    Primvar,     ///< float3, a named primvar at the first hit (missing components are 0)
+    SampleCount, ///< int, samples in the mean of this pixel
+};
+
+struct AovRequest {
+    AovKind kind = AovKind::Color;
+    std::string primvar; ///< for AovKind::Primvar
+    bool operator==(const AovRequest& o) const { return kind == o.kind && primvar == o.primvar; }
+};
+
+/// 4-byte words per pixel of an AOV, and whether they are ints.
+struct AovFormat {
+    uint32_t components;
+    bool integer;
+};
+AovFormat aovFormat(AovKind kind);
+
+/// The picture to make. Changing it discards all samples.
+struct FilmDesc {
+    uint32_t width = 0, height = 0;
+    std::vector<AovRequest> aovs{{AovKind::Color, {}}};
+    bool operator==(const FilmDesc& o) const { return width == o.width && height == o.height && aovs == o.aovs; }
+};
+
+} // namespace hipr

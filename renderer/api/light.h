@@ -1,0 +1,33 @@
+/// @file light.h
+/// Lights in UsdLux units: intensity in nits, exposure in stops, lengths in object units.
+#pragma once
+
+#include "renderer/api/types.h"
+
+namespace hipr {
+
+enum class LightKind : uint32_t { Dome, Distant, Rect, Sphere, Disk, Cylinder };
+
+/// A UsdLux light. Rect and disk emit along local -Z; the cylinder's axis is local X; the distant light
+/// shines along local -Z; the dome maps latitude-longitude with local +Y up, image centre toward local +Z... see
+/// shaders/light/environment.glsl for the exact mapping.
+struct LightDesc {
+    std::string name;
+    LightKind kind = LightKind::Sphere;
+    glm::dmat4 transform{1.0};       ///< light to world
+    float intensity = 1.f;
+    float exposure = 0.f;
+    glm::vec3 color{1.f};
+    bool enableColorTemperature = false;
+    float colorTemperature = 6500.f; ///< kelvin, 1000..10000
+    bool normalize = false;          ///< divide by the world-space area (or solid angle) of the light
+    float radius = 0.5f;             ///< sphere, disk, cylinder
+    float width = 1.f, height = 1.f; ///< rect
+    float length = 1.f;              ///< cylinder
+    float angle = 0.53f;             ///< distant: full angle in degrees
+    float diffuse = 1.f, specular = 1.f; ///< multipliers
+    bool visible = true;             ///< false: the light is off
+    std::string texture;             ///< dome: latitude-longitude image; rect: image on the emitter. May be empty
+};
+
+} // namespace hipr

@@ -1,0 +1,75 @@
+/// @file mesh.h
+/// Polygon meshes in, triangle meshes out. Building is pure host work and may run on many threads at once.
+#pragma once
+
+#include <memory>
+
+#include "renderer/api/types.h"
+
+namespace hipr {
+
+enum class SubdivisionScheme { None, CatmullClark, Loop, Bilinear };
+enum class BoundaryInterpolation { None, EdgeOnly, EdgeAndCorner };
+enum class FaceVaryingInterpolation { None, CornersOnly, CornersPlus1, CornersPlus2, Boundaries, All };
+enum class TriangleSubdivision { CatmullClark, Smooth };
+
+/// A set of faces with its own material slot (a GeomSubset).
+struct FaceSubset {
+    std::vector<int> faces; ///< indices into MeshDesc::faceVertexCounts
+};
+
+/// A polygon mesh as authored: any polygon size, holes, either orientation, optional subdivision.
+struct MeshDesc {
+    std::string name;                  ///< used in messages; the prim path in a Hydra host
+    std::vector<glm::vec3> points;     ///< object space
+    std::vector<int> faceVertexCounts;
+    std::vector<int> faceVertexIndices;
+    std::vector<int> holeFaces;        ///< faces that are not rendered
+    bool leftHanded = false;
+    bool doubleSided = false;
+    std::vector<FaceSubset> subsets;   ///< subset i uses material slot i + 1; other faces use slot 0
+    std::vector<Primvar> primvars;     ///< `normals` is honoured when present and scheme is None
+    bool flatNormals = false;          ///< force faceted shading (hull/flat reprs, scheme None without smooth)
+
+    SubdivisionScheme scheme = SubdivisionScheme::None;
+    int refineLevel = 0;               ///< 0..8; levels of uniform refinement when scheme is not None
+    BoundaryInterpolation boundary = BoundaryInterpolation::EdgeAndCorner;
+    FaceVaryingInterpolation faceVaryingLinear = FaceVaryingInterpolation::CornersPlus1;
+    TriangleSubdivision triangleSubdivision = TriangleSubdivision::CatmullClark;
+    std::vector<int> creaseIndices, creaseLengths, cornerIndices;
+    std::vector<float> creaseWeights, cornerWeights; ///< 10 and above is infinitely sharp
+};
+
+/// A triangle-mesh primvar: `Vertex` values are per vertex of TriangleMesh::positions, `FaceVarying` three per
+/// triangle, `Uniform` one per triangle, `Constant` one. Never indexed.
+struct TrianglePrimvar {
+    std::string name;
+    Interpolation interpolation;
+    uint32_t components;
+    std::vector<float> values;
+};
+
+/// What the renderer stores: validated triangles. All index and size invariants hold.
+struct TriangleMesh {
+    std::string name;
+    std::vector<glm::vec3> positions;
+    std::vector<glm::uvec3> triangles;         ///< counter-clockwise seen from the front
+    std::vector<uint32_t> triangleFace;        ///< authored face index (elementId) of each triangle
+    std::vector<uint16_t> triangleSlot;        ///< material slot of each triangle; empty: all slot 0
+    std::vector<glm::vec3> normals;            ///< shading normals, unit length; empty: use geometric normals
+    Interpolation normalInterpolation = Interpolation::Vertex; ///< Vertex or FaceVarying
+    std::vector<TrianglePrimvar> primvars;
+    bool doubleSided = false;
+    glm::vec3 boundsMin{0.f}, boundsMax{0.f};
+};
+
+/// Validates, refines (OpenSubdiv) and triangulates. Never throws on bad data: broken faces, points and
+/// primvars are dropped with one message each that names `desc.name`. Returns a mesh that may be empty.
+std::shared_ptr<const TriangleMesh> buildTriangleMesh(const MeshDesc& desc, const MessageSink& messages);
+
+/// New positions for an unchanged topology: cheaper than buildTriangleMesh only for scheme None, where
+/// triangles and primvars are shared; normals are recomputed unless authored.
+std::shared_ptr<const TriangleMesh> updatePoints(const TriangleMesh& old, const MeshDesc& desc,
+                                                 const MessageSink& messages);
+
+} // namespace hipr

@@ -1,0 +1,103 @@
+/// @file scene.h
+/// Descriptions of what is in the scene, and the edits that change it.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <variant>
+
+#include "renderer/api/light.h"
+#include "renderer/api/material.h"
+#include "renderer/api/mesh.h"
+
+namespace hipr {
+
+/// A view as matrices only, so that any host camera fits. Perspective and orthographic are told apart by the matrix.
+struct CameraDesc {
+    glm::dmat4 worldToView{1.0}; ///< right-handed, looks along -Z
+    glm::dmat4 projection{1.0};  ///< OpenGL clip space (-w <= z <= w); already fitted to the film's aspect
+};
+
+/// An object: one geometry, its materials, and its placement.
+struct ObjectDesc {
+    std::string name;
+    GeometryId geometry = GeometryId::None;
+    std::vector<MaterialId> materials; ///< by slot; a missing or None entry uses the fallback look (displayColor)
+    bool visible = true;
+    int primId = -1;                   ///< written to the primId AOV
+};
+
+/// All placements of one object. The geometry is never copied per instance.
+struct InstancesDesc {
+    std::vector<glm::mat4x3> transforms; ///< object to world, column-major 4 columns of 3 rows
+    std::vector<int> instanceIds;        ///< written to the instanceId AOV; empty: 0, 1, 2...
+    std::vector<Primvar> primvars;       ///< one value per instance; override the mesh's primvar of the same name
+};
+
+/// What kind of change happened to an element; bits combine.
+enum class Change : uint32_t {
+    None = 0,
+    Added = 1u << 0,
+    Removed = 1u << 1,
+    Transform = 1u << 2,
+    Geometry = 1u << 3,   ///< topology or points
+    Primvar = 1u << 4,
+    Material = 1u << 5,   ///< binding or content
+    Emission = 1u << 6,
+    Visibility = 1u << 7,
+    Camera = 1u << 8,
+    Setting = 1u << 9,
+};
+constexpr Change operator|(Change a, Change b) { return Change(uint32_t(a) | uint32_t(b)); }
+constexpr bool operator&(Change a, Change b) { return (uint32_t(a) & uint32_t(b)) != 0; }
+
+/// One changed element. `instance` is the index into InstancesDesc::transforms, or AllInstances.
+struct ChangedElement {
+    static constexpr uint32_t AllInstances = std::numeric_limits<uint32_t>::max();
+    std::variant<std::monostate, ObjectId, LightId, MaterialId> element; ///< monostate: camera or setting
+    Change change = Change::None;
+    uint32_t instance = AllInstances;
+};
+
+/// What a commit changed; the input of HiPR's schedule.
+struct ChangedSet {
+    std::vector<ChangedElement> elements;
+    bool empty() const { return elements.empty(); }
+};
+
+/// A batch of changes. All methods are thread-safe; later calls for the same id win.
+class SceneEdit {
+public:
+    void setGeometry(GeometryId id, std::shared_ptr<const TriangleMesh> mesh);
+    void removeGeometry(GeometryId id);
+    void setMaterial(MaterialId id, MaterialDesc desc);
+    void removeMaterial(MaterialId id);
+    void setLight(LightId id, LightDesc desc);
+    void removeLight(LightId id);
+    void setObject(ObjectId id, ObjectDesc desc);
+    void setInstances(ObjectId id, InstancesDesc desc);
+    void removeObject(ObjectId id);
+    void setCamera(const CameraDesc& camera);
+
+    bool empty() const;
+    void clear();
+
+    /// One recorded call; a null payload means removal.
+    struct GeometryOp { GeometryId id; std::shared_ptr<const TriangleMesh> mesh; };
+    struct MaterialOp { MaterialId id; std::optional<MaterialDesc> desc; };
+    struct LightOp { LightId id; std::optional<LightDesc> desc; };
+    struct ObjectOp { ObjectId id; std::optional<ObjectDesc> desc; };
+    struct InstancesOp { ObjectId id; InstancesDesc desc; };
+    struct CameraOp { CameraDesc desc; };
+    using Op = std::variant<GeometryOp, MaterialOp, LightOp, ObjectOp, InstancesOp, CameraOp>;
+
+    /// Moves the recorded calls out, in order. Used by Renderer::commit().
+    std::vector<Op> take();
+
+private:
+    mutable std::mutex _mutex;
+    std::vector<Op> _ops;
+};
+
+} // namespace hipr

@@ -1,0 +1,71 @@
+/// @file device.h
+/// One logical Vulkan 1.2 device: memory, one compute queue, uploads.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "renderer/api/renderer.h"
+#include "renderer/vulkan/buffer.h"
+
+namespace hipr {
+
+enum class MemoryUse {
+    Device,   ///< fastest for kernels; host-visible too when hostMemory()
+    Upload,   ///< written by the host, read by kernels
+    Readback, ///< written by kernels, read by the host
+};
+
+/// Owns instance, device, queue and memory. Not copyable. Not thread-safe except where said.
+class Device {
+public:
+    /// Returns null with the reason in `error`. `selector` as RendererOptions::device.
+    static std::unique_ptr<Device> create(const RendererOptions& options, std::string* error);
+    ~Device();
+
+    const DeviceInfo& info() const;
+    const MessageSink& messages() const;
+
+    /// True when every buffer is mapped and host writes are visible to kernels without a copy (CPU devices, UMA).
+    bool hostMemory() const;
+
+    /// Allocates; `kind` names the row of MemoryReport the bytes count under and must be a literal. Sizes of 0 are
+    /// rounded up to 16. Throws std::bad_alloc when device memory is exhausted.
+    Buffer createBuffer(uint64_t bytes, MemoryUse use, const char* kind);
+
+    /// Copies host data into a buffer; direct when mapped, else through a staging buffer (blocking).
+    void upload(const Buffer& dst, const void* data, uint64_t bytes, uint64_t offset = 0);
+    void download(const Buffer& src, void* data, uint64_t bytes, uint64_t offset = 0);
+
+    /// createBuffer + upload.
+    template <class T> Buffer createFrom(const T* data, size_t count, const char* kind) {
+        Buffer b = createBuffer(count * sizeof(T), MemoryUse::Device, kind);
+        if (count) upload(b, data, count * sizeof(T));
+        return b;
+    }
+
+    /// Records with `record`, submits and waits. Throws DeviceLost.
+    void run(const std::function<void(VkCommandBuffer)>& record);
+
+    MemoryReport memory() const;
+
+    VkDevice handle() const;
+    VkPhysicalDevice physical() const;
+    VkPipelineCache pipelineCache() const;
+
+private:
+    friend class Buffer;
+    Device();
+    void free(Buffer& buffer);
+    struct Impl;
+    std::unique_ptr<Impl> _impl;
+};
+
+/// Thrown when the device is lost; the renderer reports it once and stops.
+struct DeviceLost {};
+
+/// A global memory barrier between compute dispatches, transfers and indirect reads of one command buffer.
+void computeBarrier(VkCommandBuffer cmd);
+
+} // namespace hipr

@@ -1,0 +1,45 @@
+/// @file kernel.h
+/// A compute pipeline whose only interface is its push constants (addresses and sizes): no descriptors.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include <vulkan/vulkan.h>
+
+#include "renderer/vulkan/buffer.h"
+
+namespace hipr {
+
+class Device;
+
+class Kernel {
+public:
+    Kernel() = default;
+    /// `spirvBytes` bytes of SPIR-V with entry point `main`. `tlas`: the kernel also has one acceleration structure at
+    /// set 0, binding 0 (ray query).
+    Kernel(Device& device, const uint32_t* spirv, size_t spirvBytes, uint32_t pushBytes, const char* name,
+           bool tlas = false);
+    Kernel(Kernel&& o) noexcept;
+    Kernel& operator=(Kernel&& o) noexcept;
+    ~Kernel();
+
+    /// Records a dispatch of `groups` workgroups.
+    void dispatch(VkCommandBuffer cmd, const void* push, uint32_t groupsX, uint32_t groupsY = 1) const;
+    /// Records an indirect dispatch; three uints at `offset`.
+    void dispatchIndirect(VkCommandBuffer cmd, const void* push, const Buffer& args, uint64_t offset) const;
+    /// Rebinds set 0, binding 0. Only for kernels made with `tlas`.
+    void setTlas(VkAccelerationStructureKHR tlas);
+
+private:
+    Device* _device = nullptr;
+    VkPipelineLayout _layout = VK_NULL_HANDLE;
+    VkPipeline _pipeline = VK_NULL_HANDLE;
+    VkDescriptorSetLayout _setLayout = VK_NULL_HANDLE;
+    VkDescriptorPool _pool = VK_NULL_HANDLE;
+    VkDescriptorSet _set = VK_NULL_HANDLE;
+    uint32_t _pushBytes = 0;
+};
+
+} // namespace hipr

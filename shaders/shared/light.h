@@ -1,0 +1,40 @@
+// Lights. Area lights come first in the table, then infinite ones (see SceneRecord).
+#ifndef HIPR_SHARED_LIGHT_H
+#define HIPR_SHARED_LIGHT_H
+#include "language.h"
+HIPR_SHARED_BEGIN
+
+HIPR_CONST uint LIGHT_DOME = 0u; // values of hipr::LightKind
+HIPR_CONST uint LIGHT_DISTANT = 1u;
+HIPR_CONST uint LIGHT_RECT = 2u;
+HIPR_CONST uint LIGHT_SPHERE = 3u;
+HIPR_CONST uint LIGHT_DISK = 4u;
+HIPR_CONST uint LIGHT_CYLINDER = 5u;
+
+// An emitter: radiance on a shape. Emitters are ghosts: rays that cross one collect its emission and go on, so
+// emitters neither block nor shadow each other, and NEE needs no light-light occlusion.
+struct LightRecord {
+    mat4x3 lightToWorld;     // unit shapes: rect [-.5,.5]^2 scaled by size, sphere/disk radius, cylinder length along X
+    mat4x3 worldToLight;
+    vec3 radiance;           // nits in render RGB, normalisation and exposure folded in
+    uint kind;               // LIGHT_*
+    vec2 size;               // rect: width, height; sphere, disk: radius; cylinder: radius, length; distant: cos of half angle
+    float area;              // world area (area lights), solid angle (distant)
+    float selectPdf;         // probability that NEE picks this light
+    uint texture;            // TextureRecord or NO_INDEX
+    uint light;              // LightId value
+    float diffuse;
+    float specular;
+    uint64_t distribution;   // dome: piecewise-constant sampling table, see shaders/light/environment.glsl
+    uint distributionWidth;
+    uint distributionHeight;
+};
+
+// Walker/Vose alias table entry.
+struct AliasEntry {
+    float threshold;
+    uint alias;
+};
+
+HIPR_SHARED_END
+#endif

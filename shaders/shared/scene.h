@@ -1,0 +1,99 @@
+// Scene tables read by every kernel. Addresses are buffer device addresses (0: none).
+#ifndef HIPR_SHARED_SCENE_H
+#define HIPR_SHARED_SCENE_H
+#include "language.h"
+HIPR_SHARED_BEGIN
+
+HIPR_CONST uint NO_INDEX = 0xffffffffu;
+
+HIPR_CONST uint GEOMETRY_DOUBLE_SIDED = 1u;
+HIPR_CONST uint GEOMETRY_NORMALS_FACE_VARYING = 2u; // else per vertex; normals == 0: geometric normals
+
+// One triangle mesh.
+struct GeometryRecord {
+    uint64_t positions;      // vec3[vertexCount]
+    uint64_t triangles;      // uvec3[triangleCount]
+    uint64_t normals;        // vec3[vertexCount or 3 * triangleCount]
+    uint64_t triangleFace;   // uint[triangleCount]
+    uint64_t triangleSlot;   // uint16_t[triangleCount], 0 address: slot 0
+    uint64_t primvars;       // PrimvarRecord[primvarCount]
+    uint triangleCount;
+    uint vertexCount;
+    uint primvarCount;
+    uint flags;              // GEOMETRY_*
+};
+
+HIPR_CONST uint INTERPOLATION_CONSTANT = 0u;
+HIPR_CONST uint INTERPOLATION_UNIFORM = 1u;
+HIPR_CONST uint INTERPOLATION_VERTEX = 2u;
+HIPR_CONST uint INTERPOLATION_FACE_VARYING = 3u;
+
+// A primvar of a geometry or of an instance (then always constant). Names are interned to ids by the host.
+struct PrimvarRecord {
+    uint64_t values;         // float[components * count]
+    uint name;
+    uint interpolation;      // INTERPOLATION_*
+    uint components;         // 1..4
+    uint pad;
+};
+
+HIPR_CONST uint INSTANCE_NON_OPAQUE = 1u; // some slot's material may let rays through without refraction
+HIPR_CONST uint INSTANCE_MIRRORED = 2u;   // object-to-world flips handedness
+
+// One placement of one object: a leaf of the top-level acceleration structure.
+struct InstanceRecord {
+    mat4x3 objectToWorld;
+    mat4x3 worldToObject;
+    uint geometry;           // index of a GeometryRecord
+    uint firstMaterial;      // into the material index table: slot s of this object uses entry firstMaterial + s
+    uint materialCount;      // slots beyond it use the last entry
+    uint flags;              // INSTANCE_*
+    int primId;
+    int instanceId;
+    uint object;             // ObjectId value, for HiPR's changed set
+    uint primvarCount;
+    uint64_t primvars;       // PrimvarRecord[primvarCount], constant, override the geometry's
+};
+
+// A ray as the trace queues hold it. tMin is 0: origins are offset off their surface.
+struct Ray {
+    vec3 origin;
+    float tMin;
+    vec3 direction;          // unit length
+    float tMax;
+};
+
+// The nearest hit. u, v are the barycentric weights of vertices 1 and 2.
+struct Hit {
+    uint instance;           // NO_INDEX: miss
+    uint primitive;
+    float t;
+    float u;
+    float v;
+};
+
+// Everything a kernel may read about the scene; one buffer, rewritten on commit.
+struct SceneRecord {
+    uint64_t geometries;     // GeometryRecord[]
+    uint64_t instances;      // InstanceRecord[]
+    uint64_t materialIndices;// uint[]
+    uint64_t materials;      // MaterialRecord[] (shaders/shared/material.h); entry 0 is the fallback look
+    uint64_t textures;       // TextureRecord[]
+    uint64_t lights;         // LightRecord[]  (shaders/shared/light.h)
+    uint64_t lightAlias;     // AliasEntry[lightCount]: choice of a light by power
+    uint64_t bvh;            // root of the GLSL traversal's structures, or 0
+    uint instanceCount;
+    uint lightCount;
+    uint areaLightCount;     // lights [0, areaLightCount) have a shape a ray can hit
+    uint infiniteLightCount; // lights [areaLightCount, areaLightCount + infiniteLightCount) are dome or distant
+    vec3 boundsMin;          // world bounds of all instances
+    vec3 boundsMax;
+    uint flags;              // SCENE_*
+    uint pad;
+};
+
+HIPR_CONST uint SCENE_HAS_NON_OPAQUE = 1u;
+HIPR_CONST uint SCENE_DOME_HIDDEN_FROM_CAMERA = 2u;
+
+HIPR_SHARED_END
+#endif

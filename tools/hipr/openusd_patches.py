@@ -1,0 +1,100 @@
+"""What the OpenUSD 20.08 source of the `usd-cpp` crate needs to build on Debian 12, and why.
+
+Each patch replaces one exact piece of text.  Applying a patch twice changes nothing, so that an interrupted
+set-up can start over; a piece of text that is neither there nor replaced already is an error, because then
+the source is not the one this list was written for.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+
+class PatchError(Exception):
+    """The source tree does not look as a patch expects."""
+
+
+@dataclass(frozen=True)
+class Patch:
+    file: str     # relative to the root of the OpenUSD source
+    reason: str
+    old: str
+    new: str
+
+
+PATCHES = (
+    Patch(
+        "pxr/base/arch/demangle.cpp",
+        "<cxxabi.h> is included inside the pxr namespace, which GCC 12's header does not survive",
+        "#define _AT_LEAST_GCC_THREE_ONE_OR_CLANG\n#endif\n",
+        "#define _AT_LEAST_GCC_THREE_ONE_OR_CLANG\n#include <cxxabi.h>\n#endif\n"),
+    Patch(
+        "pxr/base/work/singularTask.h",
+        "size_t is used without a header that declares it",
+        "#include <atomic>\n#include <functional>\n",
+        "#include <atomic>\n#include <cstddef>\n#include <functional>\n"),
+    Patch(
+        "pxr/base/tf/pyTracing.cpp",
+        "PyFrameObject is opaque in Python 3.11; PyFrame_GetCode returns a new reference",
+        """    info.funcName = TfPyString_AsString(frame->f_code->co_name);
+    info.fileName = TfPyString_AsString(frame->f_code->co_filename);
+    info.funcLine = frame->f_code->co_firstlineno;
+    info.what = what;
+
+    _InvokeTraceFns(info);
+""",
+        """    PyCodeObject *code = PyFrame_GetCode(frame);
+    info.funcName = TfPyString_AsString(code->co_name);
+    info.fileName = TfPyString_AsString(code->co_filename);
+    info.funcLine = code->co_firstlineno;
+    info.what = what;
+
+    _InvokeTraceFns(info);
+    Py_DECREF(code);
+"""),
+    Patch(
+        "pxr/base/arch/mallocHook.cpp",
+        "glibc 2.34 dropped these hooks; weak and null they mean 'no hook', and a real allocator may still give them",
+        """extern void* (*__MALLOC_HOOK_VOLATILE __malloc_hook)(size_t __size,  const void*);
+extern void* (*__MALLOC_HOOK_VOLATILE __realloc_hook)(void* __ptr, size_t __size, const void*);
+extern void* (*__MALLOC_HOOK_VOLATILE __memalign_hook)(size_t __alignment, size_t __size, const void*);
+extern void (*__MALLOC_HOOK_VOLATILE __free_hook)(void* __ptr,  const void*);
+""",
+        """#define HIPR_WEAK __attribute__((weak))
+HIPR_WEAK void* (*__MALLOC_HOOK_VOLATILE __malloc_hook)(size_t __size,  const void*) = nullptr;
+HIPR_WEAK void* (*__MALLOC_HOOK_VOLATILE __realloc_hook)(void* __ptr, size_t __size, const void*) = nullptr;
+HIPR_WEAK void* (*__MALLOC_HOOK_VOLATILE __memalign_hook)(size_t __alignment, size_t __size, const void*) = nullptr;
+HIPR_WEAK void (*__MALLOC_HOOK_VOLATILE __free_hook)(void* __ptr,  const void*) = nullptr;
+"""),
+    Patch(
+        "pxr/imaging/hdx/CMakeLists.txt",
+        "the crate carries no images, so this one cannot be installed",
+        "        textures/StinsonBeach.exr\n",
+        ""),
+    Patch(
+        "pxr/CMakeLists.txt",
+        "export(PACKAGE) writes into the user's CMake registry, where other projects would pick this build up",
+        "export(PACKAGE pxr)\n",
+        ""),
+)
+
+
+def apply(patch: Patch, root: Path) -> bool:
+    """Applies one patch below root. Returns whether the file changed."""
+    path = root / patch.file
+    try:
+        text = path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise PatchError(f"{path}: {error.strerror}") from error
+    if patch.new and patch.new in text:
+        return False
+    if patch.old not in text:
+        if patch.new == "":
+            return False
+        raise PatchError(f"{path}: the text to patch is not there ({patch.reason})")
+    path.write_text(text.replace(patch.old, patch.new, 1), encoding="utf-8")
+    return True
+
+
+def apply_all(root: Path) -> int:
+    """Applies every patch below root. Returns how many files changed."""
+    return sum(apply(patch, root) for patch in PATCHES)
