@@ -1,0 +1,42 @@
+/// @file lights.h
+/// LightDesc -> LightRecord table with its sampling distributions.
+#pragma once
+
+#include <memory>
+
+#include "renderer/api/scene.h"
+#include "renderer/shading/textures.h"
+#include "renderer/vulkan/device.h"
+#include "shaders/shared/light.h"
+#include "shaders/shared/scene.h"
+
+namespace hipr {
+
+/// All lights of a scene: area lights first, then infinite ones, chosen by power with an alias table. Lights
+/// that emit nothing (invisible, zero or non-finite intensity, colour or size, singular transform) are left
+/// out; bad values give one message that names the light. Used by one thread.
+class LightTable {
+public:
+    LightTable(Device& device, TextureStore& textures);
+    ~LightTable();
+
+    void set(LightId id, const LightDesc& desc);
+    void remove(LightId id);
+
+    /// Rebuilds and uploads the table if a light or the bounds changed. `boundsMin/Max` bound all instances:
+    /// the power of infinite lights is what falls on that sphere. Call after TextureStore::commit(). Returns
+    /// whether anything was uploaded. No submission may be reading the tables.
+    bool commit(const glm::vec3& boundsMin, const glm::vec3& boundsMax);
+
+    /// Lights in the table (those that emit).
+    uint32_t count() const;
+
+    /// Fills SceneRecord::lights, lightAlias, lightCount, areaLightCount and infiniteLightCount.
+    void describe(gpu::SceneRecord& scene) const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> _impl;
+};
+
+} // namespace hipr
