@@ -2,6 +2,8 @@
 /// Lights in UsdLux units: intensity in nits, exposure in stops, lengths in object units.
 #pragma once
 
+#include <tuple>
+
 #include "renderer/api/types.h"
 
 namespace hipr {
@@ -28,6 +30,11 @@ struct LightDesc {
     float diffuse = 1.f, specular = 1.f; ///< multipliers
     bool visible = true;             ///< false: the light is off
     std::string texture;             ///< dome: latitude-longitude image; rect: image on the emitter. May be empty
+    auto members() const {
+        return std::tie(name, kind, transform, intensity, exposure, color, enableColorTemperature, colorTemperature,
+                        normalize, radius, width, height, length, angle, diffuse, specular, visible, texture);
+    }
+    bool operator==(const LightDesc& o) const { return members() == o.members(); }
 };
 
 } // namespace hipr

@@ -2,6 +2,8 @@
 /// UsdPreviewSurface materials as data: every input is a constant, a texture or a primvar.
 #pragma once
 
+#include <tuple>
+
 #include "renderer/api/types.h"
 
 namespace hipr {
@@ -20,6 +22,10 @@ struct TextureDesc {
     std::string uvPrimvar = "st";
     glm::vec2 uvFallback{0.f};           ///< used when the mesh lacks `uvPrimvar`
     glm::mat3x2 uvTransform{1.f, 0.f, 0.f, 1.f, 0.f, 0.f}; ///< columns: u axis, v axis, translation
+    auto members() const {
+        return std::tie(path, colorSpace, wrapS, wrapT, scale, bias, fallback, uvPrimvar, uvFallback, uvTransform);
+    }
+    bool operator==(const TextureDesc& o) const { return members() == o.members(); }
 };
 
 /// One input of a material.
@@ -29,6 +35,8 @@ struct MaterialInput {
     Channel channel = Channel::Rgb;
     TextureDesc texture;
     std::string primvar;
+    auto members() const { return std::tie(source, constant, channel, texture, primvar); }
+    bool operator==(const MaterialInput& o) const { return members() == o.members(); }
 };
 
 enum class OpacityMode : uint32_t { Transparent, Presence };
@@ -51,6 +59,12 @@ struct MaterialDesc {
     MaterialInput occlusion{MaterialInput::Source::Constant, glm::vec4(1.f), Channel::R, {}, {}};
     bool useSpecularWorkflow = false;
     OpacityMode opacityMode = OpacityMode::Transparent;
+    auto members() const {
+        return std::tie(name, diffuseColor, emissiveColor, specularColor, metallic, roughness, clearcoat,
+                        clearcoatRoughness, opacity, opacityThreshold, ior, normal, occlusion, useSpecularWorkflow,
+                        opacityMode);
+    }
+    bool operator==(const MaterialDesc& o) const { return members() == o.members(); }
 };
 
 } // namespace hipr

@@ -17,6 +17,9 @@ namespace hipr {
 struct CameraDesc {
     glm::dmat4 worldToView{1.0}; ///< right-handed, looks along -Z
     glm::dmat4 projection{1.0};  ///< OpenGL clip space (-w <= z <= w); already fitted to the film's aspect
+    bool operator==(const CameraDesc& o) const {
+        return worldToView == o.worldToView && projection == o.projection;
+    }
 };
 
 /// An object: one geometry, its materials, and its placement.
@@ -28,7 +31,8 @@ struct ObjectDesc {
     int primId = -1;                   ///< written to the primId AOV
 };
 
-/// All placements of one object. The geometry is never copied per instance.
+/// All placements of one object. The geometry is never copied per instance. An object that was never given
+/// instances stands once, untransformed; one that was given none is not seen.
 struct InstancesDesc {
     std::vector<glm::mat4x3> transforms; ///< object to world, column-major 4 columns of 3 rows
     std::vector<int> instanceIds;        ///< written to the instanceId AOV; empty: 0, 1, 2...
@@ -96,6 +100,8 @@ public:
     std::vector<Op> take();
 
 private:
+    void record(Op op);
+
     mutable std::mutex _mutex;
     std::vector<Op> _ops;
 };

@@ -19,6 +19,7 @@ struct Settings {
 #undef HIPR_SETTING_FLOAT
 #undef HIPR_SETTING_BOOL
 #undef HIPR_SETTING_ENUM
+    bool operator==(const Settings& o) const;
 };
 
 using SettingValue = std::variant<bool, int, float, std::string>;
@@ -39,6 +40,7 @@ const std::vector<SettingInfo>& settingTable();
 /// `error`, for an unknown name, a wrong type or a value outside its range. `changed` tells whether the value differs.
 bool assignSetting(Settings& settings, const std::string& name, const SettingValue& value, bool* changed,
                    std::string* error);
+/// The value of a setting by name; `false` for an unknown name.
 SettingValue readSetting(const Settings& settings, const std::string& name);
 
 } // namespace hipr

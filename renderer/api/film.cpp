@@ -1,0 +1,26 @@
+#include "renderer/api/film.h"
+
+namespace hipr {
+
+AovFormat aovFormat(AovKind kind) {
+    switch (kind) {
+    case AovKind::Color:
+        return {4, false};
+    case AovKind::Albedo:
+    case AovKind::Normal:
+    case AovKind::Neye:
+    case AovKind::Primvar:
+        return {3, false};
+    case AovKind::Depth:
+    case AovKind::CameraDepth:
+        return {1, false};
+    case AovKind::PrimId:
+    case AovKind::InstanceId:
+    case AovKind::ElementId:
+    case AovKind::SampleCount:
+        return {1, true};
+    }
+    return {1, false};
+}
+
+} // namespace hipr

@@ -1,0 +1,60 @@
+#include "renderer/api/scene.h"
+
+#include <utility>
+
+namespace hipr {
+
+// Later calls for the same id win because ops are applied in order; nothing is merged here.
+
+void SceneEdit::record(Op op) {
+    std::lock_guard<std::mutex> lock(_mutex);
+    _ops.push_back(std::move(op));
+}
+
+void SceneEdit::setGeometry(GeometryId id, std::shared_ptr<const TriangleMesh> mesh) {
+    record(GeometryOp{id, std::move(mesh)});
+}
+void SceneEdit::removeGeometry(GeometryId id) {
+    record(GeometryOp{id, nullptr});
+}
+void SceneEdit::setMaterial(MaterialId id, MaterialDesc desc) {
+    record(MaterialOp{id, std::move(desc)});
+}
+void SceneEdit::removeMaterial(MaterialId id) {
+    record(MaterialOp{id, std::nullopt});
+}
+void SceneEdit::setLight(LightId id, LightDesc desc) {
+    record(LightOp{id, std::move(desc)});
+}
+void SceneEdit::removeLight(LightId id) {
+    record(LightOp{id, std::nullopt});
+}
+void SceneEdit::setObject(ObjectId id, ObjectDesc desc) {
+    record(ObjectOp{id, std::move(desc)});
+}
+void SceneEdit::setInstances(ObjectId id, InstancesDesc desc) {
+    record(InstancesOp{id, std::move(desc)});
+}
+void SceneEdit::removeObject(ObjectId id) {
+    record(ObjectOp{id, std::nullopt});
+}
+void SceneEdit::setCamera(const CameraDesc& camera) {
+    record(CameraOp{camera});
+}
+
+bool SceneEdit::empty() const {
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _ops.empty();
+}
+
+void SceneEdit::clear() {
+    std::lock_guard<std::mutex> lock(_mutex);
+    _ops.clear();
+}
+
+std::vector<SceneEdit::Op> SceneEdit::take() {
+    std::lock_guard<std::mutex> lock(_mutex);
+    return std::exchange(_ops, {});
+}
+
+} // namespace hipr
