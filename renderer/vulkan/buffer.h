@@ -7,12 +7,15 @@
 
 #include <vulkan/vulkan.h>
 
+#include "renderer/vulkan/memory.h"
+
 namespace hipr {
 
 class Device;
 
-/// Owns a storage buffer. Move-only; freed on destruction (the owner makes sure no submission still reads it).
-/// Every buffer can be a storage, transfer, indirect and device-address buffer, and an acceleration-structure input.
+/// Owns a storage buffer. Move-only; freed on destruction (the owner makes sure no submission still reads
+/// it). Every buffer can be a storage, transfer, indirect and device-address buffer, and an
+/// acceleration-structure input.
 class Buffer {
 public:
     Buffer() = default;
@@ -30,8 +33,8 @@ public:
     VkDeviceAddress address() const { return _address; }
     uint64_t bytes() const { return _bytes; }
 
-    /// Host pointer; null unless the device's memory is host-visible (Device::hostMemory()) or the buffer was made
-    /// with MemoryUse::Readback or Upload.
+    /// Host pointer; null unless the device's memory is host-visible (Device::hostMemory()) or the buffer was
+    /// made with MemoryUse::Readback or Upload.
     template <class T = void> T* mapped() const { return static_cast<T*>(_mapped); }
 
     void swap(Buffer& o) noexcept;
@@ -43,7 +46,7 @@ private:
     VkDeviceAddress _address = 0;
     uint64_t _bytes = 0;
     void* _mapped = nullptr;
-    uint64_t _allocation = 0; ///< the device's own bookkeeping
+    MemoryRange _range;
 };
 
 } // namespace hipr

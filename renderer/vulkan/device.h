@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "renderer/api/renderer.h"
@@ -17,7 +18,8 @@ enum class MemoryUse {
     Readback, ///< written by kernels, read by the host
 };
 
-/// Owns instance, device, queue and memory. Not copyable. Not thread-safe except where said.
+/// Owns instance, device, queue and memory. Not copyable. Thread-safe; submissions of several threads queue
+/// up. Outlives its buffers and kernels.
 class Device {
 public:
     /// Returns null with the reason in `error`. `selector` as RendererOptions::device.
@@ -27,11 +29,14 @@ public:
     const DeviceInfo& info() const;
     const MessageSink& messages() const;
 
-    /// True when every buffer is mapped and host writes are visible to kernels without a copy (CPU devices, UMA).
+    /// True when every buffer is mapped and host writes are visible to kernels without a copy (CPU devices,
+    /// UMA).
     bool hostMemory() const;
 
-    /// Allocates; `kind` names the row of MemoryReport the bytes count under and must be a literal. Sizes of 0 are
-    /// rounded up to 16. Throws std::bad_alloc when device memory is exhausted.
+    /// Allocates; contents are undefined; addresses are multiples of 256. `kind` names the row of
+    /// MemoryReport the bytes count under and must be a literal. Sizes of 0 are rounded up to 16. Throws
+    /// std::bad_alloc when device memory is exhausted, after an error message that says what was wanted; the
+    /// device stays usable.
     Buffer createBuffer(uint64_t bytes, MemoryUse use, const char* kind);
 
     /// Copies host data into a buffer; direct when mapped, else through a staging buffer (blocking).
@@ -45,10 +50,18 @@ public:
         return b;
     }
 
-    /// Records with `record`, submits and waits. Throws DeviceLost.
+    /// Records with `record`, submits and waits. What kernels and transfers wrote is visible to the host
+    /// afterwards. Throws DeviceLost. `record` must not use the device's blocking calls.
     void run(const std::function<void(VkCommandBuffer)>& record);
 
+    /// Bytes of living buffers by kind, largest first.
     MemoryReport memory() const;
+    /// Bytes taken from the driver, the unused parts of memory blocks included.
+    uint64_t reservedBytes() const;
+
+    /// Whether the validation layer is at work, and how often it complained so far.
+    bool validation() const;
+    uint64_t validationErrors() const;
 
     VkDevice handle() const;
     VkPhysicalDevice physical() const;
@@ -63,7 +76,9 @@ private:
 };
 
 /// Thrown when the device is lost; the renderer reports it once and stops.
-struct DeviceLost {};
+struct DeviceLost : std::runtime_error {
+    DeviceLost() : std::runtime_error("the Vulkan device was lost") {}
+};
 
 /// A global memory barrier between compute dispatches, transfers and indirect reads of one command buffer.
 void computeBarrier(VkCommandBuffer cmd);

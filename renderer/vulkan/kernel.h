@@ -17,8 +17,9 @@ class Device;
 class Kernel {
 public:
     Kernel() = default;
-    /// `spirvBytes` bytes of SPIR-V with entry point `main`. `tlas`: the kernel also has one acceleration structure at
-    /// set 0, binding 0 (ray query).
+    /// `spirvBytes` bytes of SPIR-V with entry point `main`. `tlas`: the kernel also has one acceleration
+    /// structure at set 0, binding 0 (ray query). Throws std::runtime_error, naming the kernel, when the
+    /// driver refuses it. Thread-safe: kernels of one device may be made on several threads at once.
     Kernel(Device& device, const uint32_t* spirv, size_t spirvBytes, uint32_t pushBytes, const char* name,
            bool tlas = false);
     Kernel(Kernel&& o) noexcept;
@@ -32,7 +33,18 @@ public:
     /// Rebinds set 0, binding 0. Only for kernels made with `tlas`.
     void setTlas(VkAccelerationStructureKHR tlas);
 
+    /// Makes the driver finish compiling now (blocking). CPU devices otherwise compile in the first dispatch;
+    /// an empty dispatch is enough to start it.
+    void warm() const;
+
+    void swap(Kernel& o) noexcept;
+
 private:
+    void createDescriptors();
+    void createPipeline(const uint32_t* spirv, size_t spirvBytes, const char* name);
+    void destroy();
+    void bind(VkCommandBuffer cmd, const void* push) const;
+
     Device* _device = nullptr;
     VkPipelineLayout _layout = VK_NULL_HANDLE;
     VkPipeline _pipeline = VK_NULL_HANDLE;
