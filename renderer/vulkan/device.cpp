@@ -27,9 +27,9 @@ void toStandardError(Severity severity, const std::string& subject, const std::s
     std::cerr << "hipr: " << level << ": " + (subject.empty() ? "" : subject + ": ") + text + "\n";
 }
 
-bool wantsValidation(const RendererOptions& options) {
-    const char* value = std::getenv("HIPR_VALIDATION");
-    return options.validation || (value && std::strcmp(value, "1") == 0);
+bool environmentSays(const char* variable) {
+    const char* value = std::getenv(variable);
+    return value && std::strcmp(value, "1") == 0;
 }
 
 } // namespace
@@ -142,9 +142,6 @@ void Device::Impl::chooseMemoryTypes() {
 
 Device::Impl::~Impl() {
     if (!device) return;
-    vkDeviceWaitIdle(device);
-    uploadStaging = Buffer();
-    readbackStaging = Buffer();
     cache.reset();
     vkDestroyFence(device, fence, nullptr);
     vkDestroyCommandPool(device, commandPool, nullptr);
@@ -153,18 +150,27 @@ Device::Impl::~Impl() {
 }
 
 Device::Device() : _impl(std::make_unique<Impl>()) {}
-Device::~Device() = default;
+
+Device::~Device() {
+    if (!_impl->device) return;
+    vkDeviceWaitIdle(_impl->device);
+    // Buffers free themselves through this object, so they go while it is whole.
+    _impl->uploadStaging = Buffer();
+    _impl->readbackStaging = Buffer();
+}
 
 std::unique_ptr<Device> Device::create(const RendererOptions& options, std::string* error) {
     std::unique_ptr<Device> self(new Device);
     Impl& d = *self->_impl;
     d.messages = options.messages ? options.messages : MessageSink(&toStandardError);
-    d.instance = Instance::create(wantsValidation(options), d.messages, error);
+    d.instance =
+        Instance::create(options.validation || environmentSays("HIPR_VALIDATION"), d.messages, error);
     if (!d.instance) return nullptr;
     const std::vector<Adapter> adapters = listAdapters(d.instance->handle());
     const Adapter* adapter = chooseAdapter(adapters, options.device, error);
     if (!adapter) return nullptr;
     d.adapter = *adapter;
+    if (environmentSays("HIPR_NO_HOST_MEMORY")) d.adapter.hostMemory = false;
     try {
         d.createDevice();
         d.createCommands();

@@ -30,7 +30,7 @@ public:
     const MessageSink& messages() const;
 
     /// True when every buffer is mapped and host writes are visible to kernels without a copy (CPU devices,
-    /// UMA).
+    /// UMA). HIPR_NO_HOST_MEMORY=1 makes it false, so that any machine can run the code for discrete GPUs.
     bool hostMemory() const;
 
     /// Allocates; contents are undefined; addresses are multiples of 256. `kind` names the row of
