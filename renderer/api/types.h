@@ -40,9 +40,10 @@ struct Primvar {
     uint32_t components = 3;      ///< floats per value, 1..4
     std::vector<float> values;    ///< components * (number of values)
     std::vector<int> indices;     ///< optional; same length as the element count of `interpolation`
+    bool linear = false;          ///< Vertex only: USD's `varying`, which subdivision refines linearly
     bool operator==(const Primvar& o) const {
         return name == o.name && interpolation == o.interpolation && components == o.components &&
-               values == o.values && indices == o.indices;
+               values == o.values && indices == o.indices && linear == o.linear;
     }
 };
 
