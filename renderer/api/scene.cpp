@@ -1,5 +1,6 @@
 #include "renderer/api/scene.h"
 
+#include <iterator>
 #include <utility>
 
 namespace hipr {
@@ -50,6 +51,12 @@ bool SceneEdit::empty() const {
 void SceneEdit::clear() {
     std::lock_guard<std::mutex> lock(_mutex);
     _ops.clear();
+}
+
+void SceneEdit::append(SceneEdit& later) {
+    std::vector<Op> ops = later.take();
+    std::lock_guard<std::mutex> lock(_mutex);
+    _ops.insert(_ops.end(), std::make_move_iterator(ops.begin()), std::make_move_iterator(ops.end()));
 }
 
 std::vector<SceneEdit::Op> SceneEdit::take() {

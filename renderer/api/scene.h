@@ -87,6 +87,9 @@ public:
     bool empty() const;
     void clear();
 
+    /// Moves the recorded calls of `later` behind those of this edit; `later` is empty afterwards.
+    void append(SceneEdit& later);
+
     /// One recorded call; a null payload means removal.
     struct GeometryOp { GeometryId id; std::shared_ptr<const TriangleMesh> mesh; };
     struct MaterialOp { MaterialId id; std::optional<MaterialDesc> desc; };
