@@ -68,5 +68,12 @@ struct TextureRecord {
     uint pad;
 };
 
+// An index of refraction this near to 1 bends nothing: constant ones make the material MATERIAL_PRESENCE.
+HIPR_CONST float MIN_IOR_STEP = 0.01f;
+
+// Directional albedo of a GGX lobe: ALBEDO_ROUGHNESSES rows of ALBEDO_COSINES + 1 vec2 (see renderer/shading/albedo.h).
+HIPR_CONST uint ALBEDO_COSINES = 32u;
+HIPR_CONST uint ALBEDO_ROUGHNESSES = 24u;
+
 HIPR_SHARED_END
 #endif

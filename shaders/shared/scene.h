@@ -90,6 +90,7 @@ struct SceneRecord {
     vec3 boundsMax;
     uint flags;              // SCENE_*
     uint pad;
+    uint64_t specularAlbedo; // vec2[]: see renderer/shading/albedo.h
 };
 
 HIPR_CONST uint SCENE_HAS_NON_OPAQUE = 1u;

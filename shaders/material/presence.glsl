@@ -1,0 +1,14 @@
+// The opacity of a hit alone, for shadow rays that go through surfaces: everything else of the surface is skipped.
+#ifndef HIPR_MATERIAL_PRESENCE_GLSL
+#define HIPR_MATERIAL_PRESENCE_GLSL
+#include "material/inputs.glsl"
+
+// The part of light the surface at `hit` stops: Surface::opacity.
+float evaluatePresence(SceneRecord scene, Hit hit) {
+    ShadingPoint point = shadingPoint(scene, hit);
+    uint material = materialIndex(scene, point);
+    uint flags = MaterialRef(scene.materials).v[material].flags;
+    if ((flags & MATERIAL_PRESENCE) == 0u) return 1.0;
+    return presenceOf(flags, evaluateInputs(scene, point, material, INPUT_OPACITY, INPUT_OPACITY_THRESHOLD));
+}
+#endif
