@@ -2,7 +2,7 @@
 #include <thread>
 
 #include "hipr_vulkan_test_kernels.h"
-#include "renderer/vulkan/kernel.h"
+#include "renderer/vulkan/kernelset.h"
 #include "testenv/unit/vulkan/fixture.h"
 
 namespace hipr::test {
@@ -104,6 +104,39 @@ TEST_P(Kernels, TooManyPushConstantsAreRefusedByName) {
     } catch (const std::runtime_error& e) {
         EXPECT_THAT(e.what(), ::testing::HasSubstr("kernel greedy has 65536 bytes"));
     }
+}
+
+KernelSource scaleSource() {
+    return {spirv::scale_spv, spirv::scale_spv_size, sizeof(ScalePush), "scale", false};
+}
+
+TEST_P(Kernels, SetCompilesInTheBackground) {
+    for (const int patience : {0, 10000}) { // with help from other devices, and without
+        KernelSet set(*device, std::vector<KernelSource>(6, scaleSource()),
+                      std::chrono::milliseconds(patience));
+        set.wait();
+        for (size_t i = 0; i < 6; ++i) {
+            Scale scale(*device);
+            device->run([&](VkCommandBuffer cmd) { set.get(i).dispatch(cmd, &scale.push, 16); });
+            scale.expectResult();
+        }
+    }
+}
+
+TEST_P(Kernels, SetMayGoBeforeItIsDone) {
+    KernelSet(*device, std::vector<KernelSource>(6, scaleSource()), std::chrono::milliseconds(0));
+    KernelSet(*device, {});
+}
+
+TEST_P(Kernels, SetReportsTheKernelThatFailed) {
+    KernelSource greedy = scaleSource();
+    greedy.pushBytes = 65536;
+    greedy.name = "greedy";
+    KernelSet set(*device, {scaleSource(), greedy, scaleSource()});
+    EXPECT_NO_THROW(set.get(0));
+    EXPECT_THROW(set.get(1), std::runtime_error);
+    EXPECT_NO_THROW(set.get(2));
+    EXPECT_THROW(set.wait(), std::runtime_error);
 }
 
 } // namespace

@@ -1,0 +1,114 @@
+#include "renderer/vulkan/kernelset.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "renderer/vulkan/device.h"
+
+namespace hipr {
+
+namespace {
+
+/// Each assistant holds a device and a compiler's working memory.
+constexpr size_t MaxAssistants = 7;
+
+/// Whether what one device compiles reaches another one through Mesa's disk cache.
+bool sharesThroughDisk(const Device& device) {
+    const char* disabled = std::getenv("MESA_SHADER_CACHE_DISABLE");
+    return device.info().cpu && std::getenv("MESA_SHADER_CACHE_DIR") && !disabled;
+}
+
+std::unique_ptr<Device> scratchDevice(const Device& device) {
+    RendererOptions options;
+    options.device = std::to_string(device.info().index);
+    options.messages = [](Severity, const std::string&, const std::string&) {}; // the main device has said it
+    std::string error;
+    return Device::create(options, &error);
+}
+
+} // namespace
+
+KernelSet::KernelSet(Device& device, std::vector<KernelSource> sources, std::chrono::milliseconds patience)
+    : _device(device), _patience(patience), _entries(sources.size()) {
+    for (size_t i = 0; i < sources.size(); ++i)
+        _entries[i].source = sources[i];
+    if (sources.empty()) return;
+    _threads.emplace_back(&KernelSet::buildInOrder, this);
+    // Drivers of real devices compile in the calling thread; they can be assisted without a detour.
+    if (device.info().cpu && !sharesThroughDisk(device)) return;
+    const size_t cores = std::max(1u, std::thread::hardware_concurrency());
+    const size_t assistants = std::min({cores - 1, sources.size() - 1, MaxAssistants});
+    for (size_t i = 0; i < assistants; ++i)
+        _threads.emplace_back(&KernelSet::assist, this);
+}
+
+KernelSet::~KernelSet() {
+    {
+        std::lock_guard lock(_mutex);
+        _stop = true;
+    }
+    _changed.notify_all();
+    for (std::thread& t : _threads)
+        t.join();
+}
+
+bool KernelSet::take(size_t* index) {
+    std::lock_guard lock(_mutex);
+    if (_stop || _next == _entries.size()) return false;
+    *index = _next++;
+    return true;
+}
+
+void KernelSet::buildInOrder() {
+    for (size_t i; take(&i);)
+        build(_entries[i], nullptr);
+}
+
+void KernelSet::assist() {
+    for (bool progress = true; progress;) { // nothing came for a while: there is work to share
+        std::unique_lock lock(_mutex);
+        const size_t seen = _doneCount;
+        progress = _changed.wait_for(lock, _patience, [&] { return _stop || _doneCount != seen; });
+        if (_stop || _next == _entries.size()) return;
+    }
+    const std::unique_ptr<Device> scratch = _device.info().cpu ? scratchDevice(_device) : nullptr;
+    if (_device.info().cpu && !scratch) return;
+    for (size_t i; take(&i);)
+        build(_entries[i], scratch.get());
+}
+
+Kernel KernelSet::make(Device& device, const KernelSource& s) {
+    Kernel kernel(device, s.spirv, s.spirvBytes, s.pushBytes, s.name, s.tlas);
+    kernel.warm();
+    return kernel;
+}
+
+void KernelSet::build(Entry& entry, Device* scratch) {
+    try {
+        if (scratch) make(*scratch, entry.source);
+        entry.kernel = make(_device, entry.source);
+    } catch (...) {
+        entry.failure = std::current_exception();
+    }
+    {
+        std::lock_guard lock(_mutex);
+        entry.done = true;
+        ++_doneCount;
+    }
+    _changed.notify_all();
+}
+
+Kernel& KernelSet::get(size_t index) {
+    Entry& entry = _entries.at(index);
+    std::unique_lock lock(_mutex);
+    _changed.wait(lock, [&] { return entry.done; });
+    if (entry.failure) std::rethrow_exception(entry.failure);
+    return entry.kernel;
+}
+
+void KernelSet::wait() {
+    for (size_t i = 0; i < _entries.size(); ++i)
+        get(i);
+}
+
+} // namespace hipr
