@@ -1,4 +1,4 @@
-// Wavefront state: one slot a path. See renderer/trace/.
+// Wavefront state: one slot a path. See renderer/trace/path_tracer.h.
 #ifndef HIPR_SHARED_TRACE_H
 #define HIPR_SHARED_TRACE_H
 #include "language.h"
@@ -14,15 +14,23 @@ struct TileWork {
     uint pad;
 };
 
-// Pinhole or orthographic, from matrices.
+// Pinhole or orthographic, from matrices. The ray through NDC (x, y) has
+//   direction = normalize(direction + x * directionX + y * directionY),
+//   origin    = origin + x * originX + y * originY   (the axes are 0 for a pinhole),
+// which is exact for every projective matrix and, unlike unprojecting two points, keeps its precision far from the
+// world's origin. Lengths along the view axis between nearDepth and farDepth are seen, counted from `origin`.
 struct CameraRecord {
-    mat4 clipToWorld;
     mat4 worldToClip;
     mat4x3 worldToView;
-    vec3 origin;             // perspective only
-    uint orthographic;
+    vec3 origin;
+    float nearDepth;
+    vec3 originX;
+    float farDepth;
+    vec3 originY;
+    vec3 direction;
+    vec3 directionX;
+    vec3 directionY;
     vec3 forward;            // unit view axis in world space
-    uint pad;
 };
 
 // The first hit of the ray through the pixel centre; every "first hit" AOV is resolved from it.
@@ -30,7 +38,110 @@ struct VisibilityRecord {
     uint instance;           // NO_INDEX: nothing
     uint primitive;
     float u, v;
-    float cameraDepth;       // distance along `forward`
+    float cameraDepth;       // distance along `forward` from the camera's origin
+};
+
+// One path between two kernels.
+struct PathState {
+    vec3 throughput;
+    float bsdfPdf;           // of the ray in flight; below 0: camera ray or delta lobe, lights count in full
+    vec3 radiance;           // seen directly, or lighting the first surface directly
+    uint event;              // surfaces met, passed ones included: numbers the random vectors
+    vec3 indirect;           // everything after more bounces
+    uint depth;              // surfaces that scattered the path
+    vec3 albedo;             // of the first surface that scattered it
+    float alpha;
+    uint pixel;              // x + y * 65536
+    uint sampleIndex;
+};
+
+// What a shadow ray carries if it arrives.
+struct ShadowWork {
+    vec3 contribution;
+    uint slot;               // path; SHADOW_INDIRECT added when it belongs to PathState::indirect
+};
+HIPR_CONST uint SHADOW_INDIRECT = 0x80000000u;
+
+// Sums over the samples of one pixel.
+struct FilmPixel {
+    vec4 color;
+    vec3 albedo;
+    uint count;
+};
+
+// One AOV that is resolved from the first hit; one value a pixel.
+struct AovTarget {
+    uint64_t values;
+    uint kind;               // hipr::AovKind
+    uint primvar;            // interned name
+};
+
+HIPR_CONST uint AOV_DEPTH = 2u; // values of hipr::AovKind
+HIPR_CONST uint AOV_CAMERA_DEPTH = 3u;
+HIPR_CONST uint AOV_NORMAL = 4u;
+HIPR_CONST uint AOV_NEYE = 5u;
+HIPR_CONST uint AOV_PRIM_ID = 6u;
+HIPR_CONST uint AOV_INSTANCE_ID = 7u;
+HIPR_CONST uint AOV_ELEMENT_ID = 8u;
+HIPR_CONST uint AOV_PRIMVAR = 9u;
+
+// Indices of the queue headers. Ray and transmit queues are read and written in turns; shadow headers alternate so
+// that one can be cleared while the other is in use.
+HIPR_CONST uint QUEUE_RAYS = 0u;     // 2
+HIPR_CONST uint QUEUE_SHADOW = 2u;   // 2
+HIPR_CONST uint QUEUE_TRANSMIT = 4u; // 2
+HIPR_CONST uint QUEUE_COUNT = 6u;
+
+// Surfaces one path may pass straight through, and those one shadow ray may; longer ones end (are blocked).
+HIPR_CONST uint PATH_PASS_LIMIT = 256u;
+HIPR_CONST uint SHADOW_PASS_LIMIT = 32u;
+
+struct TraceCounters {
+    uint64_t nearestRays;
+    uint64_t shadowRays;
+    uint64_t transmitRays;
+    uint nonFinite;          // dropped contributions
+    uint pad;
+};
+
+// Everything the wavefront kernels share; rewritten when film, settings, camera or scene change.
+struct TraceRecord {
+    uint64_t scene;          // SceneRecord
+    uint64_t camera;         // CameraRecord
+    uint64_t tiles;          // TileWork[]
+    uint64_t headers;        // QueueHeader[QUEUE_COUNT]
+    uint64_t counters;       // TraceCounters
+    uint64_t paths;          // PathState[]
+    uint64_t rays[2];        // Ray[]
+    uint64_t raySlots[2];    // uint[]: the path of each ray
+    uint64_t hits;           // Hit[]
+    uint64_t shadowRays;     // Ray[]
+    uint64_t shadowWork;     // ShadowWork[]
+    uint64_t shadowResults;  // uint[]
+    uint64_t transmitRays[2];
+    uint64_t transmitWork[2];
+    uint64_t transmitHits;
+    uint64_t film;           // FilmPixel[]
+    uint64_t visibility;     // VisibilityRecord[]
+    uint64_t aovs;           // AovTarget[aovCount]
+    uint aovCount;
+    uint width, height;      // film
+    uint maxDepth;
+    uint rouletteDepth;
+    uint pixelFilter;        // FILTER_*
+    float filterWidth;
+    float fireflyClamp;
+    uint seed;
+    uint pad;
+};
+
+// Push constants of every wavefront kernel.
+struct TraceKernelPush {
+    uint64_t record;         // TraceRecord
+    uint turn;               // which of two queues is read
+    uint first;              // visibility: first pixel; prepare: headers to close (bits 0..7), to clear (bits 8..15)
+    uint count;              // raygen, visibility: rays
+    uint pad;
 };
 
 HIPR_SHARED_END

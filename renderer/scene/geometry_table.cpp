@@ -1,0 +1,166 @@
+#include "renderer/scene/geometry_table.h"
+
+#include <algorithm>
+
+namespace hipr {
+namespace {
+
+bool equalPrimvars(const TrianglePrimvar& a, const TrianglePrimvar& b) {
+    return a.name == b.name && a.interpolation == b.interpolation && a.components == b.components &&
+           a.values == b.values;
+}
+
+bool equalAttributes(const TriangleMesh& a, const TriangleMesh& b) {
+    return a.triangleFace == b.triangleFace && a.triangleSlot == b.triangleSlot && a.normals == b.normals &&
+           a.normalInterpolation == b.normalInterpolation && a.doubleSided == b.doubleSided && a.name == b.name &&
+           std::equal(a.primvars.begin(), a.primvars.end(), b.primvars.begin(), b.primvars.end(), equalPrimvars);
+}
+
+bool hasTranslucency(const TriangleMesh& mesh) {
+    for (const TrianglePrimvar& primvar : mesh.primvars)
+        if (primvar.name == "displayOpacity")
+            return std::any_of(primvar.values.begin(), primvar.values.end(), [](float v) { return v < 1.f; });
+    return false;
+}
+
+uint64_t bytesOf(const TriangleMesh& mesh) {
+    uint64_t bytes = mesh.positions.size() * sizeof(glm::vec3) + mesh.triangles.size() * sizeof(glm::uvec3) +
+                     mesh.triangleFace.size() * sizeof(uint32_t) + mesh.triangleSlot.size() * sizeof(uint16_t) +
+                     mesh.normals.size() * sizeof(glm::vec3);
+    for (const TrianglePrimvar& primvar : mesh.primvars)
+        bytes += primvar.values.size() * sizeof(float);
+    return bytes;
+}
+
+} // namespace
+
+Change GeometryTable::set(GeometryId id, std::shared_ptr<const TriangleMesh> mesh) {
+    auto [it, added] = _entries.try_emplace(id);
+    Entry& entry = it->second;
+    if (!added && entry.mesh == mesh) return Change::None;
+    Change change = Change::Added;
+    if (added) {
+        if (_freeSlots.empty()) _freeSlots.push_back(_slotCount++);
+        entry.slot = _freeSlots.back();
+        _freeSlots.pop_back();
+    } else {
+        const bool sameShape = entry.mesh->positions == mesh->positions && entry.mesh->triangles == mesh->triangles;
+        if (sameShape && equalAttributes(*entry.mesh, *mesh)) {
+            entry.mesh = std::move(mesh);
+            return Change::None;
+        }
+        entry.shapePending |= !sameShape;
+        change = sameShape ? Change::Primvar : Change::Geometry;
+    }
+    entry.mesh = std::move(mesh);
+    entry.translucent = hasTranslucency(*entry.mesh);
+    const std::vector<uint16_t>& slots = entry.mesh->triangleSlot;
+    entry.slotCount = slots.empty() ? 1 : 1u + *std::max_element(slots.begin(), slots.end());
+    entry.attributesPending = true;
+    _recordsPending = true;
+    return change;
+}
+
+bool GeometryTable::remove(GeometryId id) {
+    auto it = _entries.find(id);
+    if (it == _entries.end()) return false;
+    // Traversals may read the buffer until they are told in commit(); the slot is free again after that.
+    _removedSlots.push_back(it->second.slot);
+    _retired.push_back(std::move(it->second.shape));
+    _entries.erase(it);
+    return true;
+}
+
+const Geometry* GeometryTable::find(GeometryId id) const {
+    auto it = _entries.find(id);
+    return it == _entries.end() ? nullptr : &it->second;
+}
+
+void GeometryTable::resubmit() {
+    for (auto& [id, entry] : _entries)
+        entry.submitted = nullptr;
+}
+
+void GeometryTable::commit(Traversal& traversal) {
+    for (uint32_t slot : _removedSlots) {
+        traversal.setGeometry(slot, nullptr);
+        _freeSlots.push_back(slot);
+    }
+    _removedSlots.clear();
+    for (auto& [id, entry] : _entries) {
+        if (entry.attributesPending) uploadAttributes(entry);
+        if (entry.shapePending) uploadShape(entry);
+        if (entry.shapePending || !entry.submitted) submit(entry, traversal);
+        entry.attributesPending = entry.shapePending = false;
+    }
+    _retired.clear();
+    if (!_recordsPending) return;
+    _recordsPending = false;
+    std::vector<gpu::GeometryRecord> records(_slotCount);
+    for (const auto& [id, entry] : _entries)
+        records[entry.slot] = entry.record;
+    _records.reserve(_device, records.size() * sizeof(gpu::GeometryRecord), "Geometry tables");
+    _device.upload(_records.buffer(), records.data(), records.size() * sizeof(gpu::GeometryRecord));
+}
+
+void GeometryTable::uploadShape(Entry& entry) {
+    const TriangleMesh& mesh = *entry.mesh;
+    BufferPack pack;
+    const uint64_t positions = pack.add(mesh.positions, 16); // host traversals read 4 bytes beyond the last vertex
+    const uint64_t triangles = pack.add(mesh.triangles);
+    _retired.push_back(std::move(entry.shape));
+    entry.shape = _device.createBuffer(pack.bytes(), MemoryUse::Device, "Geometry");
+    pack.upload(_device, entry.shape);
+    entry.record.positions = entry.shape.address() + positions;
+    entry.record.triangles = entry.shape.address() + triangles;
+    entry.record.vertexCount = uint32_t(mesh.positions.size());
+    entry.record.triangleCount = uint32_t(mesh.triangles.size());
+}
+
+void GeometryTable::uploadAttributes(Entry& entry) {
+    const TriangleMesh& mesh = *entry.mesh;
+    BufferPack pack;
+    const uint64_t normals = pack.add(mesh.normals);
+    const uint64_t faces = pack.add(mesh.triangleFace);
+    const uint64_t slots = pack.add(mesh.triangleSlot);
+    std::vector<gpu::PrimvarRecord> primvars;
+    for (const TrianglePrimvar& primvar : mesh.primvars)
+        primvars.push_back({pack.add(primvar.values), _names.intern(primvar.name), uint32_t(primvar.interpolation),
+                            primvar.components, 0});
+    const uint64_t table = pack.reserve(primvars.size() * sizeof(gpu::PrimvarRecord));
+    entry.attributes = _device.createBuffer(pack.bytes(), MemoryUse::Device, "Primvars");
+    const VkDeviceAddress base = entry.attributes.address();
+    for (gpu::PrimvarRecord& primvar : primvars)
+        primvar.values += base;
+    pack.write(table, primvars);
+    pack.upload(_device, entry.attributes);
+
+    entry.record.normals = mesh.normals.empty() ? 0 : base + normals;
+    entry.record.triangleFace = base + faces;
+    entry.record.triangleSlot = mesh.triangleSlot.empty() ? 0 : base + slots;
+    entry.record.primvars = base + table;
+    entry.record.primvarCount = uint32_t(primvars.size());
+    entry.record.flags = (mesh.doubleSided ? gpu::GEOMETRY_DOUBLE_SIDED : 0) |
+                         (mesh.normalInterpolation == Interpolation::FaceVarying ? gpu::GEOMETRY_NORMALS_FACE_VARYING : 0);
+}
+
+void GeometryTable::submit(Entry& entry, Traversal& traversal) {
+    const TriangleMesh& mesh = *entry.mesh;
+    const bool sameTopology = entry.submitted && entry.submitted->triangles == mesh.triangles &&
+                              entry.submitted->positions.size() == mesh.positions.size();
+    // Where kernels and host share memory the traversal reads the same copy as they do.
+    const void* positions = entry.shape.mapped() ? entry.shape.mapped() : mesh.positions.data();
+    GeometryView view{static_cast<const glm::vec3*>(positions), entry.record.vertexCount, mesh.triangles.data(),
+                      entry.record.triangleCount, entry.record.positions, entry.record.triangles, sameTopology};
+    traversal.setGeometry(entry.slot, mesh.triangles.empty() ? nullptr : &view);
+    entry.submitted = entry.mesh;
+}
+
+uint64_t GeometryTable::hostBytes() const {
+    uint64_t bytes = 0;
+    for (const auto& [id, entry] : _entries)
+        bytes += bytesOf(*entry.mesh);
+    return bytes;
+}
+
+} // namespace hipr

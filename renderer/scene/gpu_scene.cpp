@@ -1,0 +1,159 @@
+#include "renderer/scene/gpu_scene.h"
+
+#include <glm/gtc/constants.hpp>
+
+namespace hipr {
+namespace {
+
+/// Stands in when nothing else lights the scene; never an id of newId().
+constexpr LightId CameraLight = LightId(std::numeric_limits<uint32_t>::max());
+
+/// A headlight: a matte surface that faces the camera shows its own colour.
+LightDesc cameraLight(const CameraDesc& camera) {
+    LightDesc light;
+    light.name = "camera light";
+    light.kind = LightKind::Distant;
+    light.transform = glm::inverse(camera.worldToView);
+    light.normalize = true;
+    light.intensity = glm::pi<float>();
+    light.angle = 2.f;
+    return light;
+}
+
+Change lightChange(const LightDesc& a, const LightDesc& b) {
+    LightDesc moved = a, switched = a;
+    moved.transform = b.transform;
+    switched.visible = b.visible;
+    if (a == b) return Change::None;
+    if (moved == b) return Change::Transform;
+    if (switched == b) return Change::Visibility;
+    return a.transform == b.transform ? Change::Emission : Change::Emission | Change::Transform;
+}
+
+} // namespace
+
+GpuScene::GpuScene(Device& device, AssetReader assets)
+    : _device(device), _textures(device, std::move(assets), ColorManager::create(device.messages())),
+      _materials(device, _names, _textures), _lights(device, _textures), _geometries(device, _names),
+      _objects(device, _names), _record(device.createBuffer(sizeof(gpu::SceneRecord), MemoryUse::Device, "Scene")) {}
+
+void GpuScene::setTraversal(std::unique_ptr<Traversal> traversal) {
+    _traversal = std::move(traversal);
+    _traversalChanged = true;
+    _geometries.resubmit();
+}
+
+ChangedSet GpuScene::apply(const std::vector<SceneEdit::Op>& ops) {
+    ChangedSet changed;
+    for (const SceneEdit::Op& op : ops)
+        std::visit([&](const auto& o) { apply(o, changed); }, op);
+    return changed;
+}
+
+void GpuScene::apply(const SceneEdit::GeometryOp& op, ChangedSet& changed) {
+    const Change change = op.mesh ? _geometries.set(op.id, op.mesh)
+                                  : (_geometries.remove(op.id) ? Change::Removed : Change::None);
+    if (change != Change::None) _objects.geometryChanged(op.id, change, changed);
+}
+
+void GpuScene::apply(const SceneEdit::MaterialOp& op, ChangedSet& changed) {
+    auto it = _materialDescs.find(op.id);
+    if (!op.desc) {
+        if (it == _materialDescs.end()) return;
+        _materialDescs.erase(it);
+        _materials.remove(op.id);
+        changed.elements.push_back({op.id, Change::Removed});
+        return;
+    }
+    if (it != _materialDescs.end() && it->second == *op.desc) return;
+    const bool emitted = _materials.emissive(op.id);
+    _materials.set(op.id, *op.desc);
+    Change change = it == _materialDescs.end() ? Change::Added : Change::Material;
+    if (emitted || _materials.emissive(op.id)) change = change | Change::Emission;
+    _materialDescs[op.id] = *op.desc;
+    changed.elements.push_back({op.id, change});
+}
+
+void GpuScene::apply(const SceneEdit::LightOp& op, ChangedSet& changed) {
+    auto it = _lightDescs.find(op.id);
+    Change change = Change::None;
+    if (!op.desc) {
+        if (it == _lightDescs.end()) return;
+        change = Change::Removed;
+        _lightDescs.erase(it);
+        _lights.remove(op.id);
+    } else {
+        change = it == _lightDescs.end() ? Change::Added : lightChange(it->second, *op.desc);
+        if (change == Change::None) return;
+        _lightDescs[op.id] = *op.desc;
+        if (_options.lights) _lights.set(op.id, *op.desc);
+    }
+    changed.elements.push_back({op.id, change});
+}
+
+void GpuScene::apply(const SceneEdit::ObjectOp& op, ChangedSet& changed) {
+    if (op.desc)
+        _objects.setObject(op.id, *op.desc, changed);
+    else
+        _objects.removeObject(op.id, changed);
+}
+
+void GpuScene::apply(const SceneEdit::InstancesOp& op, ChangedSet& changed) {
+    _objects.setInstances(op.id, op.desc, changed);
+}
+
+void GpuScene::apply(const SceneEdit::CameraOp& op, ChangedSet& changed) {
+    if (_camera && *_camera == op.desc) return;
+    _camera = op.desc;
+    changed.elements.push_back({std::monostate(), Change::Camera});
+}
+
+bool GpuScene::setOptions(const SceneOptions& options) {
+    if (options == _options) return false;
+    if (options.lights != _options.lights)
+        for (const auto& [id, desc] : _lightDescs) {
+            if (options.lights)
+                _lights.set(id, desc);
+            else
+                _lights.remove(id);
+        }
+    _options = options;
+    return true;
+}
+
+void GpuScene::commit() {
+    _textures.commit();
+    _materials.commit();
+    _geometries.commit(*_traversal);
+    if (_objects.commit(_geometries, _options.materials ? &_materials : nullptr) || _traversalChanged)
+        _traversal->setInstances(_objects.records());
+    _traversal->commit();
+    _traversalChanged = false;
+
+    _hostRecord = {};
+    _objects.describe(_hostRecord);
+    commitLights();
+    _lights.describe(_hostRecord);
+    _geometries.describe(_hostRecord);
+    _materials.describe(_hostRecord);
+    _textures.describe(_hostRecord);
+    _hostRecord.bvh = _traversal->sceneAddress();
+    if (!_options.domeVisibleToCamera) _hostRecord.flags |= gpu::SCENE_DOME_HIDDEN_FROM_CAMERA;
+    _device.upload(_record, &_hostRecord, sizeof(_hostRecord));
+}
+
+// Pictures must not be black for want of a light. The light table knows which lights emit anything.
+void GpuScene::commitLights() {
+    if (_cameraLight) _lights.remove(CameraLight);
+    _cameraLight = false;
+    _lights.commit(_hostRecord.boundsMin, _hostRecord.boundsMax);
+    if (_lights.count() > 0 || !_camera) return;
+    _cameraLight = true;
+    _lights.set(CameraLight, cameraLight(*_camera));
+    _lights.commit(_hostRecord.boundsMin, _hostRecord.boundsMax);
+    if (_cameraLightReported) return;
+    _cameraLightReported = true;
+    _device.messages()(Severity::Info, "", "no light in the scene; lighting it from the camera");
+}
+
+} // namespace hipr

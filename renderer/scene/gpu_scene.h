@@ -1,0 +1,72 @@
+/// @file gpu_scene.h
+/// The scene on the device: applies edits to the tables that kernels read, rebuilding only what changed.
+#pragma once
+
+#include <unordered_map>
+
+#include "renderer/scene/object_table.h"
+#include "renderer/shading/lights.h"
+#include "renderer/shading/materials.h"
+
+namespace hipr {
+
+/// Settings that change what is in the scene.
+struct SceneOptions {
+    bool lights = true, materials = true, domeVisibleToCamera = true;
+    bool operator==(const SceneOptions& o) const {
+        return lights == o.lights && materials == o.materials && domeVisibleToCamera == o.domeVisibleToCamera;
+    }
+};
+
+/// Used by one thread, while no submission reads the scene.
+class GpuScene {
+public:
+    GpuScene(Device& device, AssetReader assets);
+
+    /// Replaces the traversal; all shapes are built again at the next commit().
+    void setTraversal(std::unique_ptr<Traversal> traversal);
+    Traversal& traversal() { return *_traversal; }
+
+    /// Records edits; nothing reaches the device before commit().
+    ChangedSet apply(const std::vector<SceneEdit::Op>& ops);
+    /// Returns whether the options differ from the ones before.
+    bool setOptions(const SceneOptions& options);
+    /// Loads textures, uploads tables, builds acceleration structures. Blocking.
+    void commit();
+
+    const std::optional<CameraDesc>& camera() const { return _camera; }
+    NameTable& names() { return _names; }
+    /// The SceneRecord, once committed.
+    VkDeviceAddress address() const { return _record.address(); }
+    bool hasNonOpaque() const { return (_hostRecord.flags & gpu::SCENE_HAS_NON_OPAQUE) != 0; }
+    /// Host memory of meshes and of the traversal's structures.
+    uint64_t hostBytes() const { return _geometries.hostBytes(); }
+
+private:
+    void apply(const SceneEdit::GeometryOp& op, ChangedSet& changed);
+    void apply(const SceneEdit::MaterialOp& op, ChangedSet& changed);
+    void apply(const SceneEdit::LightOp& op, ChangedSet& changed);
+    void apply(const SceneEdit::ObjectOp& op, ChangedSet& changed);
+    void apply(const SceneEdit::InstancesOp& op, ChangedSet& changed);
+    void apply(const SceneEdit::CameraOp& op, ChangedSet& changed);
+    void commitLights();
+
+    Device& _device;
+    NameTable _names;
+    TextureStore _textures;
+    MaterialTable _materials;
+    LightTable _lights;
+    GeometryTable _geometries;
+    ObjectTable _objects;
+    std::unique_ptr<Traversal> _traversal;
+
+    std::unordered_map<MaterialId, MaterialDesc> _materialDescs; ///< to tell what an edit changes
+    std::map<LightId, LightDesc> _lightDescs;
+    std::optional<CameraDesc> _camera;
+    SceneOptions _options;
+    bool _traversalChanged = true, _cameraLight = false, _cameraLightReported = false;
+    gpu::SceneRecord _hostRecord{};
+    Buffer _record;
+};
+
+} // namespace hipr

@@ -1,0 +1,284 @@
+#include "renderer/scene/object_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hipr {
+namespace {
+
+bool finite(const glm::dmat4x3& m) {
+    for (int c = 0; c < 4; ++c)
+        if (!std::isfinite(m[c].x) || !std::isfinite(m[c].y) || !std::isfinite(m[c].z)) return false;
+    return true;
+}
+
+glm::dmat4x3 inverseOf(const glm::mat4x3& m) {
+    return glm::dmat4x3(glm::inverse(glm::dmat4(glm::dvec4(m[0], 0), glm::dvec4(m[1], 0), glm::dvec4(m[2], 0),
+                                                glm::dvec4(m[3], 1))));
+}
+
+bool canBeRendered(const glm::mat4x3& m) {
+    return finite(glm::dmat4x3(m)) && finite(inverseOf(m)) && finite(glm::dmat4x3(glm::mat4x3(inverseOf(m))));
+}
+
+bool mirrors(const glm::mat4x3& m) { return glm::dot(glm::cross(m[0], m[1]), m[2]) < 0; }
+
+// One value per instance, whichever way the primvar is indexed; -1 when it has none for this instance.
+int64_t valueIndex(const Primvar& primvar, size_t instance) {
+    if (!primvar.indices.empty()) {
+        if (instance >= primvar.indices.size() || primvar.indices[instance] < 0) return -1;
+        instance = size_t(primvar.indices[instance]);
+    }
+    return (instance + 1) * primvar.components <= primvar.values.size() ? int64_t(instance) : -1;
+}
+
+bool isTranslucent(const std::vector<Primvar>& primvars) {
+    for (const Primvar& primvar : primvars)
+        if (primvar.name == "displayOpacity")
+            return std::any_of(primvar.values.begin(), primvar.values.end(), [](float v) { return v < 1.f; });
+    return false;
+}
+
+void note(ChangedSet& changed, ObjectId id, Change change, uint32_t instance = ChangedElement::AllInstances) {
+    if (change != Change::None) changed.elements.push_back({id, change, instance});
+}
+
+} // namespace
+
+bool ObjectTable::Placement::operator==(const Placement& o) const {
+    return first == o.first && count == o.count && geometry == o.geometry && firstMaterial == o.firstMaterial &&
+           materialCount == o.materialCount && flags == o.flags && primId == o.primId;
+}
+
+void ObjectTable::setObject(ObjectId id, const ObjectDesc& desc, ChangedSet& changed) {
+    Entry& entry = _entries[id];
+    if (!entry.desc) {
+        note(changed, id, Change::Added);
+    } else {
+        Change change = Change::None;
+        if (entry.desc->geometry != desc.geometry) change = change | Change::Geometry;
+        if (entry.desc->materials != desc.materials) change = change | Change::Material;
+        if (entry.desc->visible != desc.visible) change = change | Change::Visibility;
+        if (entry.desc->primId != desc.primId) change = change | Change::Primvar;
+        note(changed, id, change);
+    }
+    entry.boundsPending = true;
+    entry.missingReported = false;
+    entry.desc = desc;
+}
+
+void ObjectTable::setInstances(ObjectId id, const InstancesDesc& desc, ChangedSet& changed) {
+    Entry& entry = _entries[id];
+    const InstancesDesc old = entry.instances ? *entry.instances : InstancesDesc{{glm::mat4x3(1.f)}, {}, {}};
+    const bool sameData = old.instanceIds == desc.instanceIds && old.primvars == desc.primvars;
+    if (!sameData || old.transforms.size() != desc.transforms.size()) {
+        note(changed, id, sameData ? Change::Transform : Change::Transform | Change::Primvar);
+    } else {
+        for (size_t i = 0; i < old.transforms.size(); ++i)
+            if (old.transforms[i] != desc.transforms[i]) note(changed, id, Change::Transform, uint32_t(i));
+    }
+    entry.instances = desc;
+    entry.transformsPending = true;
+}
+
+void ObjectTable::removeObject(ObjectId id, ChangedSet& changed) {
+    if (_entries.erase(id)) note(changed, id, Change::Removed);
+}
+
+void ObjectTable::geometryChanged(GeometryId geometry, Change change, ChangedSet& changed) {
+    for (auto& [id, entry] : _entries) {
+        if (!entry.desc || entry.desc->geometry != geometry) continue;
+        entry.boundsPending = true;
+        entry.missingReported = false;
+        note(changed, id, change == Change::Primvar ? Change::Primvar : Change::Geometry);
+    }
+}
+
+const Geometry* ObjectTable::shownGeometry(Entry& entry, const GeometryTable& geometries) {
+    if (!entry.desc || !entry.desc->visible || entry.desc->geometry == GeometryId::None) return nullptr;
+    const Geometry* geometry = geometries.find(entry.desc->geometry);
+    if (!geometry && !entry.missingReported) {
+        entry.missingReported = true;
+        _device.messages()(Severity::Warning, entry.desc->name,
+                           "its geometry is not in the scene; the object is not rendered");
+    }
+    return geometry && !geometry->mesh->triangles.empty() ? geometry : nullptr;
+}
+
+void ObjectTable::findUsable(Entry& entry) {
+    if (!entry.instances) {
+        entry.usable.assign(1, 0);
+        return;
+    }
+    const std::vector<glm::mat4x3>& transforms = entry.instances->transforms;
+    entry.usable.clear();
+    for (uint32_t i = 0; i < transforms.size(); ++i)
+        if (canBeRendered(transforms[i])) entry.usable.push_back(i);
+    const size_t skipped = transforms.size() - entry.usable.size();
+    if (skipped == 0) return;
+    _device.messages()(Severity::Warning, entry.desc->name,
+                       std::to_string(skipped) + " of " + std::to_string(transforms.size()) +
+                           " instances have a transform that is not finite or has no volume; they are not rendered");
+}
+
+void ObjectTable::uploadPrimvars(Entry& entry) {
+    entry.primvars = Buffer();
+    entry.primvarCount = 0;
+    if (!entry.instances || entry.instances->primvars.empty() || entry.usable.empty()) return;
+
+    BufferPack pack;
+    std::vector<const Primvar*> used;
+    std::vector<uint64_t> offsets;
+    for (const Primvar& primvar : entry.instances->primvars) {
+        const bool complete = primvar.components >= 1 && primvar.components <= 4 &&
+                              std::all_of(entry.usable.begin(), entry.usable.end(),
+                                          [&](uint32_t i) { return valueIndex(primvar, i) >= 0; });
+        if (!complete) {
+            _device.messages()(Severity::Warning, entry.desc->name,
+                               "instance primvar '" + primvar.name + "' has no value for some instances; ignored");
+            continue;
+        }
+        used.push_back(&primvar);
+        offsets.push_back(pack.add(primvar.values));
+    }
+    const uint64_t table = pack.reserve(used.size() * entry.usable.size() * sizeof(gpu::PrimvarRecord));
+    entry.primvars = _device.createBuffer(pack.bytes(), MemoryUse::Device, "Instance primvars");
+    std::vector<gpu::PrimvarRecord> records;
+    for (uint32_t instance : entry.usable)
+        for (size_t i = 0; i < used.size(); ++i)
+            records.push_back({entry.primvars.address() + offsets[i] +
+                                   uint64_t(valueIndex(*used[i], instance)) * used[i]->components * sizeof(float),
+                               _names.intern(used[i]->name), gpu::INTERPOLATION_CONSTANT, used[i]->components, 0});
+    pack.write(table, records);
+    pack.upload(_device, entry.primvars);
+    entry.primvarCount = uint32_t(used.size());
+    entry.primvarTable = entry.primvars.address() + table;
+}
+
+ObjectTable::Placement ObjectTable::place(Entry& entry, const Geometry* geometry, const MaterialTable* materials,
+                                          uint32_t first, std::vector<uint32_t>& materialIndices) {
+    Placement placement;
+    placement.first = first;
+    placement.firstMaterial = uint32_t(materialIndices.size());
+    if (!geometry) return placement;
+    placement.count = uint32_t(entry.usable.size());
+    placement.geometry = geometry->slot;
+    placement.materialCount = geometry->slotCount;
+    placement.primId = entry.desc->primId;
+    const bool fallbackNonOpaque =
+        geometry->translucent || (entry.instances && isTranslucent(entry.instances->primvars));
+    for (uint32_t slot = 0; slot < geometry->slotCount; ++slot) {
+        const bool bound = materials && slot < entry.desc->materials.size();
+        const MaterialId id = bound ? entry.desc->materials[slot] : MaterialId::None;
+        const uint32_t index = bound ? materials->index(id) : MaterialTable::Fallback;
+        materialIndices.push_back(index);
+        if (index == MaterialTable::Fallback ? fallbackNonOpaque : materials->nonOpaque(id))
+            placement.flags |= gpu::INSTANCE_NON_OPAQUE;
+    }
+    return placement;
+}
+
+void ObjectTable::writeRecords(ObjectId id, Entry& entry) {
+    const Placement& placed = entry.placed;
+    for (uint32_t i = 0; i < placed.count; ++i) {
+        const uint32_t source = entry.usable[i];
+        const glm::mat4x3 transform = entry.instances ? entry.instances->transforms[source] : glm::mat4x3(1.f);
+        const bool hasIds = entry.instances && source < entry.instances->instanceIds.size();
+        gpu::InstanceRecord& record = _records[placed.first + i];
+        record.objectToWorld = transform;
+        record.worldToObject = glm::mat4x3(inverseOf(transform));
+        record.geometry = placed.geometry;
+        record.firstMaterial = placed.firstMaterial;
+        record.materialCount = placed.materialCount;
+        record.flags = placed.flags | (mirrors(transform) ? gpu::INSTANCE_MIRRORED : 0);
+        record.primId = placed.primId;
+        record.instanceId = hasIds ? entry.instances->instanceIds[source] : int(source);
+        record.object = uint32_t(id);
+        record.primvarCount = entry.primvarCount;
+        record.primvars = entry.primvarCount ? entry.primvarTable + i * entry.primvarCount * sizeof(gpu::PrimvarRecord) : 0;
+    }
+}
+
+void ObjectTable::updateBounds(Entry& entry, const TriangleMesh& mesh) {
+    const glm::vec3 centre = 0.5f * (mesh.boundsMin + mesh.boundsMax), half = 0.5f * (mesh.boundsMax - mesh.boundsMin);
+    entry.boundsMin = glm::vec3(std::numeric_limits<float>::max());
+    entry.boundsMax = -entry.boundsMin;
+    for (uint32_t i = 0; i < entry.placed.count; ++i) {
+        const glm::mat4x3& m = _records[entry.placed.first + i].objectToWorld;
+        const glm::vec3 c = m * glm::vec4(centre, 1.f);
+        const glm::vec3 h = glm::abs(m[0]) * half.x + glm::abs(m[1]) * half.y + glm::abs(m[2]) * half.z;
+        entry.boundsMin = glm::min(entry.boundsMin, c - h);
+        entry.boundsMax = glm::max(entry.boundsMax, c + h);
+    }
+}
+
+bool ObjectTable::commit(const GeometryTable& geometries, const MaterialTable* materials) {
+    std::vector<uint32_t> materialIndices;
+    std::vector<std::pair<ObjectId, Entry*>> rewritten;
+    uint32_t total = 0;
+    for (auto& [id, entry] : _entries) {
+        const Geometry* geometry = shownGeometry(entry, geometries);
+        const bool transformsChanged = geometry && entry.transformsPending;
+        if (transformsChanged) {
+            findUsable(entry);
+            uploadPrimvars(entry);
+            entry.transformsPending = false;
+        }
+        const Placement placement = place(entry, geometry, materials, total, materialIndices);
+        if (transformsChanged || !(placement == entry.placed)) rewritten.push_back({id, &entry});
+        entry.placed = placement;
+        total += placement.count;
+    }
+
+    const bool resized = total != _records.size();
+    _records.resize(total);
+    for (auto& [id, entry] : rewritten) {
+        writeRecords(id, *entry);
+        entry->boundsPending = true;
+    }
+    uploadRecords(rewritten);
+    if (materialIndices != _materialIndices) {
+        _materialIndices = std::move(materialIndices);
+        _materialTable.reserve(_device, _materialIndices.size() * sizeof(uint32_t), "Instance tables");
+        _device.upload(_materialTable.buffer(), _materialIndices.data(), _materialIndices.size() * sizeof(uint32_t));
+    }
+    summarise(geometries);
+    return resized || !rewritten.empty();
+}
+
+void ObjectTable::uploadRecords(const std::vector<std::pair<ObjectId, Entry*>>& rewritten) {
+    constexpr uint64_t Stride = sizeof(gpu::InstanceRecord);
+    size_t begin = _records.size(), end = 0;
+    for (const auto& [id, entry] : rewritten) {
+        begin = std::min<size_t>(begin, entry->placed.first);
+        end = std::max<size_t>(end, entry->placed.first + entry->placed.count);
+    }
+    if (_recordTable.reserve(_device, _records.size() * Stride, "Instance tables")) begin = 0, end = _records.size();
+    if (begin < end) _device.upload(_recordTable.buffer(), &_records[begin], (end - begin) * Stride, begin * Stride);
+}
+
+void ObjectTable::summarise(const GeometryTable& geometries) {
+    _boundsMin = glm::vec3(std::numeric_limits<float>::max());
+    _boundsMax = -_boundsMin;
+    _nonOpaque = false;
+    for (auto& [id, entry] : _entries) {
+        if (entry.placed.count == 0) continue;
+        if (entry.boundsPending) updateBounds(entry, *geometries.find(entry.desc->geometry)->mesh);
+        entry.boundsPending = false;
+        _boundsMin = glm::min(_boundsMin, entry.boundsMin);
+        _boundsMax = glm::max(_boundsMax, entry.boundsMax);
+        _nonOpaque |= (entry.placed.flags & gpu::INSTANCE_NON_OPAQUE) != 0;
+    }
+    if (_records.empty()) _boundsMin = _boundsMax = glm::vec3(0.f);
+}
+
+void ObjectTable::describe(gpu::SceneRecord& scene) const {
+    scene.instances = _recordTable.address();
+    scene.instanceCount = uint32_t(_records.size());
+    scene.materialIndices = _materialTable.address();
+    scene.boundsMin = _boundsMin;
+    scene.boundsMax = _boundsMax;
+    if (_nonOpaque) scene.flags |= gpu::SCENE_HAS_NON_OPAQUE;
+}
+
+} // namespace hipr

@@ -1,0 +1,74 @@
+/// @file object_table.h
+/// Objects and their instances -> InstanceRecord and material index tables.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "renderer/scene/geometry_table.h"
+#include "renderer/shading/materials.h"
+
+namespace hipr {
+
+/// Instances are laid out by object id, so that a scene looks the same to the last bit whatever edits led to it.
+class ObjectTable {
+public:
+    ObjectTable(Device& device, NameTable& names) : _device(device), _names(names) {}
+
+    /// Each reports what differs from before into `changed`.
+    void setObject(ObjectId id, const ObjectDesc& desc, ChangedSet& changed);
+    void setInstances(ObjectId id, const InstancesDesc& desc, ChangedSet& changed);
+    void removeObject(ObjectId id, ChangedSet& changed);
+    /// Reports a change of a geometry for all objects that show it.
+    void geometryChanged(GeometryId id, Change change, ChangedSet& changed);
+
+    /// Brings the tables up to date with objects, geometries and materials. Returns whether an instance changed in a way
+    /// a traversal must know. `materials` null: every object shows the fallback look.
+    bool commit(const GeometryTable& geometries, const MaterialTable* materials);
+
+    const std::vector<gpu::InstanceRecord>& records() const { return _records; }
+    /// Fills instances, materialIndices, instanceCount, bounds and SCENE_HAS_NON_OPAQUE.
+    void describe(gpu::SceneRecord& scene) const;
+
+private:
+    /// Where an object's instances are and what they have in common.
+    struct Placement {
+        uint32_t first = 0, count = 0, geometry = 0, firstMaterial = 0, materialCount = 0, flags = 0;
+        int primId = -1;
+        bool operator==(const Placement& o) const;
+    };
+    struct Entry {
+        std::optional<ObjectDesc> desc;
+        std::optional<InstancesDesc> instances; ///< none: stands once, untransformed
+        std::vector<uint32_t> usable;           ///< indices of transforms that can be rendered
+        Placement placed;
+        Buffer primvars;
+        uint32_t primvarCount = 0;
+        uint64_t primvarTable = 0;
+        glm::vec3 boundsMin, boundsMax;
+        bool transformsPending = true, boundsPending = true;
+        bool missingReported = false;
+    };
+
+    const Geometry* shownGeometry(Entry& entry, const GeometryTable& geometries);
+    Placement place(Entry& entry, const Geometry* geometry, const MaterialTable* materials, uint32_t first,
+                    std::vector<uint32_t>& materialIndices);
+    void findUsable(Entry& entry);
+    void uploadPrimvars(Entry& entry);
+    void writeRecords(ObjectId id, Entry& entry);
+    void uploadRecords(const std::vector<std::pair<ObjectId, Entry*>>& rewritten);
+    void summarise(const GeometryTable& geometries);
+    void updateBounds(Entry& entry, const TriangleMesh& mesh);
+
+    Device& _device;
+    NameTable& _names;
+    std::map<ObjectId, Entry> _entries;
+    std::vector<gpu::InstanceRecord> _records;
+    std::vector<uint32_t> _materialIndices;
+    DeviceTable _recordTable, _materialTable;
+    glm::vec3 _boundsMin{0.f}, _boundsMax{0.f};
+    bool _nonOpaque = false;
+};
+
+} // namespace hipr

@@ -1,0 +1,36 @@
+// Starts one path a slot. Workgroups: x covers the slots of a tile, y is the tile.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "trace/camera.glsl"
+#include "sampling/sobol.glsl"
+#include "sampling/filter.glsl"
+
+void main() {
+    const TraceRecord trace = TraceRecordRef(push.record).v;
+    const TileWork tile = TileRef(trace.tiles).v[gl_WorkGroupID.y];
+    const uint local = gl_GlobalInvocationID.x;
+    if (gl_WorkGroupID.y == 0u && local == 0u) HeaderRef(trace.headers).v[QUEUE_RAYS].count = push.count;
+    if (local >= tile.width * tile.height * tile.sampleCount) return;
+
+    const uint pixelInTile = local / tile.sampleCount;
+    const uvec2 pixel = uvec2(tile.x + pixelInTile % tile.width, tile.y + pixelInTile / tile.width);
+    const uint slot = tile.firstSlot + local;
+
+    PathState path;
+    path.throughput = vec3(1.0);
+    path.bsdfPdf = -1.0;
+    path.radiance = vec3(0.0);
+    path.event = 0u;
+    path.indirect = vec3(0.0);
+    path.depth = 0u;
+    path.albedo = vec3(0.0);
+    path.alpha = 0.0;
+    path.pixel = pixel.x | pixel.y << 16;
+    path.sampleIndex = tile.firstSample + local % tile.sampleCount;
+
+    const vec4 u = sobol4(pixel, path.sampleIndex, 0u, trace.seed);
+    const vec2 film = vec2(pixel) + 0.5 + sampleFilter(trace.pixelFilter, trace.filterWidth, u.xy);
+    PathRef(trace.paths).v[slot] = path;
+    RayRef(trace.rays[0]).v[slot] = cameraRay(CameraRef(trace.camera).v, film, uvec2(trace.width, trace.height));
+    SlotRef(trace.raySlots[0]).v[slot] = slot;
+}

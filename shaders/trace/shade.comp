@@ -1,0 +1,117 @@
+// One bounce of each path in flight: collects the light its ray ran into, then lets the surface scatter it. A light
+// sample goes to the shadow queue, the continued path to the other ray queue.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "trace/wavefront.glsl"
+#include "trace/offset.glsl"
+#include "sampling/sobol.glsl"
+#include "material/surface.glsl"
+#include "material/bsdf.glsl"
+#include "light/sample.glsl"
+#include "light/hit.glsl"
+
+// Random vectors of one event; raygen has set 0.
+const uint RANDOM_LIGHT = 1u;
+const uint RANDOM_BSDF = 2u;
+const uint RANDOM_CHOICE = 3u; // x: pass through, y: Russian roulette
+const uint RANDOM_SETS = 3u;
+
+vec4 randomVector(TraceRecord trace, PathState path, uint which) {
+    return sobol4(pathPixel(path), path.sampleIndex, RANDOM_SETS * path.event + which, trace.seed);
+}
+
+vec3 offsetTowards(Surface surface, vec3 direction) {
+    return offsetOrigin(surface.position, dot(surface.ng, direction) < 0.0 ? -surface.ng : surface.ng);
+}
+
+// Next event estimation: the light of one emitter, weighted against finding it by BSDF sampling with the power
+// heuristic (E. Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, section 9.2.4).
+void sampleDirectLight(TraceRecord trace, SceneRecord scene, inout PathState path, uint slot, Surface surface, vec3 wo) {
+    LightSample light;
+    if (!sampleLight(scene, surface.position, randomVector(trace, path, RANDOM_LIGHT), light)) return;
+    float bsdfPdf;
+    const vec3 f = evalBsdf(surface, wo, light.wi, bsdfPdf);
+    const float ratio = light.delta ? 0.0 : bsdfPdf / light.pdf;
+    const vec3 contribution = path.throughput * f * light.radiance / (light.pdf * (1.0 + ratio * ratio));
+    if (!allFinite(contribution)) {
+        addRadiance(trace, path, contribution, false); // counts it
+        return;
+    }
+    if (all(lessThanEqual(contribution, vec3(0.0)))) return;
+    const uint i = appendToQueue(trace, QUEUE_SHADOW + push.turn);
+    RayRef(trace.shadowRays).v[i] =
+        Ray(offsetTowards(surface, light.wi), 0.0, light.wi, light.distance * (1.0 - 1e-4));
+    ShadowWorkRef(trace.shadowWork).v[i] =
+        ShadowWork(contribution, path.depth > 0u ? slot | SHADOW_INDIRECT : slot);
+}
+
+// Samples the next direction. False: the path ends here.
+bool bounce(TraceRecord trace, inout PathState path, inout Ray ray, Surface surface, vec3 wo, float roulette) {
+    vec3 wi, weight;
+    float pdf;
+    uint lobe;
+    if (!sampleBsdf(surface, wo, randomVector(trace, path, RANDOM_BSDF), wi, weight, pdf, lobe)) return false;
+    path.throughput *= weight;
+    path.bsdfPdf = pdf;
+    ++path.depth;
+    ++path.event;
+    if (path.depth >= trace.rouletteDepth) {
+        const float survival =
+            clamp(max(path.throughput.r, max(path.throughput.g, path.throughput.b)), 0.05, 1.0);
+        if (roulette >= survival) return false;
+        path.throughput /= survival;
+    }
+    ray = Ray(offsetTowards(surface, wi), 0.0, wi, RAY_INFINITY);
+    return any(greaterThan(path.throughput, vec3(0.0))) && allFinite(path.throughput);
+}
+
+// What a surface does with a path. False: the path ends here.
+bool scatter(TraceRecord trace, SceneRecord scene, inout PathState path, inout Ray ray, Hit hit, uint slot) {
+    const Surface surface = evaluateSurface(scene, hit, ray);
+    const vec4 choice = randomVector(trace, path, RANDOM_CHOICE);
+    if (choice.x >= surface.opacity) {
+        if (path.event - path.depth >= PATH_PASS_LIMIT) return false;
+        ++path.event;
+        ray.tMin = passedDistance(hit.t);
+        return true;
+    }
+    if (path.depth == 0u) {
+        path.alpha = 1.0;
+        path.albedo = surface.albedo;
+    }
+    addRadiance(trace, path, path.throughput * surface.emission, path.depth > 1u);
+    if (path.depth >= trace.maxDepth) return false;
+    const vec3 wo = -ray.direction;
+    sampleDirectLight(trace, scene, path, slot, surface, wo);
+    return bounce(trace, path, ray, surface, wo, choice.y);
+}
+
+// The light a ray has run into by `distance`, and the sky if it met nothing.
+void collectLight(TraceRecord trace, SceneRecord scene, inout PathState path, Ray ray, float distance, bool miss) {
+    const bool cameraRay = path.depth == 0u;
+    vec3 light = lightsAlongRay(scene, ray, distance, cameraRay, path.bsdfPdf);
+    if (cameraRay && any(greaterThan(light, vec3(0.0)))) path.alpha = 1.0;
+    if (miss) light += environmentRadiance(scene, ray.direction, cameraRay, path.bsdfPdf);
+    addRadiance(trace, path, path.throughput * light, path.depth > 1u);
+}
+
+void main() {
+    const TraceRecord trace = TraceRecordRef(push.record).v;
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= HeaderRef(trace.headers).v[QUEUE_RAYS + push.turn].count) return;
+    const SceneRecord scene = SceneRef(trace.scene).v;
+    const uint slot = SlotRef(trace.raySlots[push.turn]).v[i];
+    const Hit hit = HitRef(trace.hits).v[i];
+    Ray ray = RayRef(trace.rays[push.turn]).v[i];
+    PathState path = PathRef(trace.paths).v[slot];
+
+    const bool miss = hit.instance == NO_INDEX;
+    collectLight(trace, scene, path, ray, miss ? ray.tMax : hit.t, miss);
+    const bool alive = !miss && scatter(trace, scene, path, ray, hit, slot);
+    PathRef(trace.paths).v[slot] = path;
+    if (!alive) return;
+    const uint other = 1u - push.turn;
+    const uint j = appendToQueue(trace, QUEUE_RAYS + other);
+    RayRef(trace.rays[other]).v[j] = ray;
+    SlotRef(trace.raySlots[other]).v[j] = slot;
+}

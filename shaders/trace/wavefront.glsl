@@ -1,0 +1,73 @@
+// What every wavefront kernel shares: the buffers behind TraceRecord and queue appends.
+#ifndef HIPR_TRACE_WAVEFRONT_GLSL
+#define HIPR_TRACE_WAVEFRONT_GLSL
+#include "shared/references.glsl"
+#include "shared/queue.h"
+#include "shared/trace.h"
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_ballot : require
+
+layout(local_size_x = 64) in;
+
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer TraceRecordRef { TraceRecord v; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer CameraRef { CameraRecord v; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer TileRef { TileWork v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer AovTargetRef { AovTarget v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer HeaderRef { QueueHeader v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer CountersRef { TraceCounters v; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PathRef { PathState v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer RayRef { Ray v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer SlotRef { uint v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer HitRef { Hit v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer ShadowWorkRef { ShadowWork v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FilmRef { FilmPixel v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer VisibilityRef { VisibilityRecord v[]; };
+
+layout(push_constant, scalar) uniform Push { TraceKernelPush push; };
+
+const float RAY_INFINITY = 3.402823466e38;
+
+// The index of a new entry of a queue; one atomic a subgroup. Entries land in any order, which no result depends on.
+uint appendToQueue(TraceRecord trace, uint queue) {
+    const uvec4 active_ = subgroupBallot(true);
+    uint first = 0u;
+    if (subgroupElect()) first = atomicAdd(HeaderRef(trace.headers).v[queue].count, subgroupBallotBitCount(active_));
+    return subgroupBroadcastFirst(first) + subgroupBallotExclusiveBitCount(active_);
+}
+
+uvec2 pathPixel(PathState path) {
+    return uvec2(path.pixel & 0xffffu, path.pixel >> 16);
+}
+
+bool allFinite(vec3 v) {
+    return !(any(isnan(v)) || any(isinf(v)));
+}
+
+// Adds radiance to a path. A value that is not finite is dropped and counted: one broken material or texel must not
+// blacken a pixel for good.
+void addRadiance(TraceRecord trace, inout PathState path, vec3 value, bool indirect) {
+    if (!allFinite(value)) {
+        atomicAdd(CountersRef(trace.counters).v.nonFinite, 1u);
+        return;
+    }
+    if (indirect)
+        path.indirect += value;
+    else
+        path.radiance += value;
+}
+
+// Adds what a shadow ray carried.
+void arrive(TraceRecord trace, ShadowWork work) {
+    const uint slot = work.slot & ~SHADOW_INDIRECT;
+    if ((work.slot & SHADOW_INDIRECT) != 0u)
+        PathRef(trace.paths).v[slot].indirect += work.contribution;
+    else
+        PathRef(trace.paths).v[slot].radiance += work.contribution;
+}
+
+// Just behind a surface that was passed through. The origin stays, so that pdfs of lights further along the ray remain
+// those of the vertex the ray left from.
+float passedDistance(float t) {
+    return t * (1.0 + 1e-5) + 1e-6;
+}
+#endif
