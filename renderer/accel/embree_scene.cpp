@@ -1,0 +1,139 @@
+#include "renderer/accel/embree_scene.h"
+
+#include <stdexcept>
+#include <string>
+
+#include <tbb/parallel_for.h>
+
+#include "renderer/accel/denormals.h"
+#include "shaders/shared/intersect.h"
+
+namespace hipr {
+namespace {
+
+Bounds geometryBounds(const GeometryView& v) {
+    Bounds b;
+    for (uint32_t i = 0; i < v.triangleCount; ++i)
+        for (int k = 0; k < 3; ++k)
+            b.add(v.positions[v.triangles[i][k]]);
+    return b;
+}
+
+bool countMemory(void* counter, ssize_t bytes, bool) {
+    static_cast<std::atomic<int64_t>*>(counter)->fetch_add(bytes, std::memory_order_relaxed);
+    return true;
+}
+
+/// Embree's box test does not know the allowance of canonical hits (boxRay), so its boxes get it built in,
+/// four times over for origins outside the scene.
+void instanceBounds(const RTCBoundsFunctionArguments* args) {
+    const InstanceTable& table = static_cast<const EmbreeScene*>(args->geometryUserPtr)->table();
+    const gpu::BvhInstance& i = table.records[args->primID];
+    RTCBounds& out = *args->bounds_o;
+    if (!i.mask) { // inverted: Embree leaves the primitive out
+        out = {1.0f, 1.0f, 1.0f, 0.0f, -1.0f, -1.0f, -1.0f, 0.0f};
+        return;
+    }
+    const float m = 4.0f * gpu::BOX_ALLOWANCE * table.extent;
+    out = {i.lo.x - m, i.lo.y - m, i.lo.z - m, 0.0f, i.hi.x + m, i.hi.y + m, i.hi.z + m, 0.0f};
+}
+
+} // namespace
+
+EmbreeScene::EmbreeScene(const EmbreeCallbacks& callbacks) : _callbacks(callbacks) {
+    const FlushDenormals flush;
+    _device = rtcNewDevice(nullptr);
+    if (!_device)
+        throw std::runtime_error("Embree does not start: error " +
+                                 std::to_string(rtcGetDeviceError(nullptr)));
+    rtcSetDeviceMemoryMonitorFunction(_device, countMemory, &_bytes);
+    _top = rtcNewScene(_device);
+    rtcSetSceneFlags(_top, RTC_SCENE_FLAG_ROBUST);
+    _instanceGeometry = rtcNewGeometry(_device, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserData(_instanceGeometry, this);
+    rtcSetGeometryBoundsFunction(_instanceGeometry, instanceBounds, nullptr);
+    rtcSetGeometryIntersectFunction(_instanceGeometry, _callbacks.intersect);
+    rtcSetGeometryOccludedFunction(_instanceGeometry, _callbacks.occluded);
+    rtcAttachGeometry(_top, _instanceGeometry);
+    check("setting up the top level");
+}
+
+EmbreeScene::~EmbreeScene() {
+    for (const auto& g : _geometries)
+        if (g && g->scene) rtcReleaseScene(g->scene);
+    if (_instanceGeometry) rtcReleaseGeometry(_instanceGeometry);
+    if (_top) rtcReleaseScene(_top);
+    rtcReleaseDevice(_device);
+}
+
+void EmbreeScene::check(const char* doing) const {
+    const RTCError e = rtcGetDeviceError(_device);
+    if (e == RTC_ERROR_NONE) return;
+    throw std::runtime_error(std::string("Embree, ") + doing + ": " +
+                             (e == RTC_ERROR_OUT_OF_MEMORY ? "out of memory" : "error " + std::to_string(e)));
+}
+
+void EmbreeScene::setGeometry(uint32_t slot, const GeometryView* view) {
+    if (slot >= _geometries.size()) _geometries.resize(slot + 1);
+    std::unique_ptr<EmbreeGeometry>& g = _geometries[slot];
+    _instancesChanged = true; // boxes of instances follow their geometry
+    if (!view) {
+        if (g && g->scene) rtcReleaseScene(g->scene);
+        g.reset();
+        return;
+    }
+    if (!g) g = std::make_unique<EmbreeGeometry>();
+    g->view = *view;
+    g->changed = true;
+}
+
+void EmbreeScene::setInstances(const std::vector<gpu::InstanceRecord>& instances) {
+    _instances = instances;
+    _instancesChanged = true;
+}
+
+void EmbreeScene::buildGeometry(EmbreeGeometry& g) {
+    const FlushDenormals flush;
+    g.changed = false;
+    g.bounds = geometryBounds(g.view);
+    if (g.scene) rtcReleaseScene(g.scene);
+    g.scene = nullptr;
+    if (g.view.triangleCount == 0) return;
+    g.scene = rtcNewScene(_device);
+    rtcSetSceneFlags(g.scene, RTC_SCENE_FLAG_ROBUST);
+    const RTCGeometry triangles = rtcNewGeometry(_device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(triangles, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, g.view.positions, 0,
+                               sizeof(glm::vec3), g.view.vertexCount);
+    rtcSetSharedGeometryBuffer(triangles, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, g.view.triangles, 0,
+                               sizeof(glm::uvec3), g.view.triangleCount);
+    rtcSetGeometryUserData(triangles, &g);
+    rtcSetGeometryIntersectFilterFunction(triangles, _callbacks.intersectFilter);
+    rtcSetGeometryOccludedFilterFunction(triangles, _callbacks.occludedFilter);
+    rtcCommitGeometry(triangles);
+    rtcAttachGeometry(g.scene, triangles);
+    rtcReleaseGeometry(triangles);
+    rtcCommitScene(g.scene);
+}
+
+void EmbreeScene::buildTop() {
+    _table = makeInstanceTable(_instances, [this](uint32_t slot) {
+        return slot < _geometries.size() && _geometries[slot] ? _geometries[slot]->bounds : Bounds{};
+    });
+    rtcSetGeometryUserPrimitiveCount(_instanceGeometry, unsigned(_instances.size()));
+    rtcCommitGeometry(_instanceGeometry);
+    rtcCommitScene(_top);
+    _instancesChanged = false;
+}
+
+void EmbreeScene::commit() {
+    const FlushDenormals flush;
+    std::vector<EmbreeGeometry*> changed;
+    for (const auto& g : _geometries)
+        if (g && g->changed) changed.push_back(g.get());
+    tbb::parallel_for(size_t(0), changed.size(), [&](size_t i) { buildGeometry(*changed[i]); });
+    check("building geometry");
+    if (_instancesChanged) buildTop();
+    check("building the top level");
+}
+
+} // namespace hipr

@@ -1,0 +1,96 @@
+#include "renderer/accel/instance_table.h"
+
+#include <cmath>
+
+#include "shaders/shared/intersect.h"
+#include "shaders/shared/queue.h"
+
+namespace hipr {
+namespace {
+
+struct Placement {
+    glm::dmat3 linear;
+    glm::dvec3 offset;
+};
+
+Placement placement(const glm::mat4x3& m) {
+    return {glm::dmat3(m[0], m[1], m[2]), glm::dvec3(m[3])};
+}
+
+glm::dmat3 absolute(const glm::dmat3& m) {
+    return {glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2])};
+}
+
+bool finite(const glm::mat4x3& m) {
+    for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 3; ++r)
+            if (!std::isfinite(m[c][r])) return false;
+    return true;
+}
+
+/// Largest float not above, or smallest not below: rounding outwards.
+glm::vec3 roundedDown(const glm::dvec3& v) {
+    glm::vec3 f(v);
+    for (int a = 0; a < 3; ++a)
+        if (double(f[a]) > v[a]) f[a] = std::nextafter(f[a], std::numeric_limits<float>::lowest());
+    return f;
+}
+
+struct WorldBox {
+    glm::dvec3 centre, half;
+};
+
+WorldBox worldBox(const Placement& p, const Bounds& b) {
+    const glm::dvec3 lo(b.lo), hi(b.hi);
+    return {p.linear * ((lo + hi) * 0.5) + p.offset, absolute(p.linear) * ((hi - lo) * 0.5)};
+}
+
+/// Rounding of worldToObject applied to a ray of world size `extent`, brought back to world space.
+glm::dvec3 margin(const gpu::InstanceRecord& instance, const Bounds& b, double extent) {
+    const Placement out = placement(instance.objectToWorld), in = placement(instance.worldToObject);
+    const glm::dvec3 moved =
+        absolute(in.linear) * glm::dvec3(extent) + glm::abs(in.offset) + double(b.extent());
+    return double(gpu::BOX_ALLOWANCE) * (absolute(out.linear) * moved + glm::abs(out.offset));
+}
+
+bool usable(const gpu::InstanceRecord& i) {
+    return finite(i.objectToWorld) && finite(i.worldToObject) &&
+           glm::determinant(placement(i.worldToObject).linear) != 0.0;
+}
+
+} // namespace
+
+InstanceTable makeInstanceTable(const std::vector<gpu::InstanceRecord>& instances,
+                                const std::function<Bounds(uint32_t slot)>& geometryBounds) {
+    InstanceTable table;
+    table.records.resize(instances.size());
+    double extent = 0.0;
+    for (size_t i = 0; i < instances.size(); ++i) {
+        const gpu::InstanceRecord& instance = instances[i];
+        gpu::BvhInstance& record = table.records[i];
+        record = {};
+        record.worldToObject = instance.worldToObject;
+        const Bounds b = geometryBounds(instance.geometry);
+        if (b.empty() || !usable(instance)) continue;
+        record.extent = b.extent();
+        record.mask =
+            instance.flags & gpu::INSTANCE_NON_OPAQUE ? gpu::RAY_MASK_NON_OPAQUE : gpu::RAY_MASK_OPAQUE;
+        const WorldBox w = worldBox(placement(instance.objectToWorld), b);
+        const glm::dvec3 reach = glm::abs(w.centre) + w.half;
+        extent = std::max(extent, std::max(reach.x, std::max(reach.y, reach.z)));
+    }
+    for (size_t i = 0; i < instances.size(); ++i) {
+        gpu::BvhInstance& record = table.records[i];
+        if (!record.mask) continue;
+        const Bounds b = geometryBounds(instances[i].geometry);
+        const WorldBox w = worldBox(placement(instances[i].objectToWorld), b);
+        const glm::dvec3 half = w.half + margin(instances[i], b, extent);
+        record.lo = roundedDown(w.centre - half);
+        record.hi = -roundedDown(-(w.centre + half));
+        table.bounds.add(Bounds{record.lo, record.hi});
+    }
+    table.extent = table.bounds.extent();
+    return table;
+}
+
+} // namespace hipr
