@@ -1,0 +1,96 @@
+// Next-event estimation: choosing a light and a direction to it.
+#ifndef HIPR_LIGHT_SAMPLE_GLSL
+#define HIPR_LIGHT_SAMPLE_GLSL
+#include "light/environment.glsl"
+#include "light/shapes.glsl"
+
+struct LightSample {
+    vec3 wi;
+    float distance;  // INFINITE_DISTANCE for dome and distant lights
+    vec3 radiance;   // for directions without a density (a distant light of angle 0) radiance times solid angle
+    float pdf;       // per solid angle, choice of the light included
+    vec2 lobeScale;  // the light's diffuse and specular multipliers, for evalBsdfScaled
+    bool exclusive;  // rays that meet the light do not count it (see isExclusive): the sample has weight 1
+};
+
+const float INFINITE_DISTANCE = 3.0e38;
+
+// Lights that only next-event estimation may count: those of no extent, and those whose diffuse and specular
+// multipliers are not 1, since a ray that meets a light does not know which lobe it came from.
+bool isExclusive(LightRecord light) {
+    return light.diffuse != 1.0 || light.specular != 1.0 || (light.kind == LIGHT_DISTANT && light.area == 0.0);
+}
+
+vec3 distantAxis(LightRecord light) { return normalize(light.lightToWorld[2]); } // towards the light
+
+// Weight by the power heuristic, exponent 2 (E. Veach, thesis, 1997, section 9.2.4).
+float powerHeuristic(float pdf, float other) {
+    float ratio = other / pdf;
+    return 1.0 / (1.0 + ratio * ratio);
+}
+
+// Weight of a light sample against finding the same direction by sampling the BSDF with density `bsdfPdf`.
+float lightMisWeight(LightSample ls, float bsdfPdf) { return ls.exclusive ? 1.0 : powerHeuristic(ls.pdf, bsdfPdf); }
+
+vec3 shapeRadiance(SceneRecord scene, LightRecord light, vec2 st) {
+    if (light.texture == NO_INDEX) return light.radiance;
+    return light.radiance * max(sampleTexture(TextureRef(scene.textures).v[light.texture], st).rgb, 0.0);
+}
+
+// The light for u in [0, 1), in proportion to LightRecord::selectPdf: M. D. Vose, "A linear algorithm for generating
+// random numbers with a given distribution", IEEE Trans. Softw. Eng. 17(9), 1991.
+uint chooseLight(SceneRecord scene, float u) {
+    float x = u * float(scene.lightCount);
+    uint i = min(uint(x), scene.lightCount - 1u);
+    AliasEntry entry = AliasRef(scene.lightAlias).v[i];
+    return x - float(i) < entry.threshold ? i : entry.alias;
+}
+
+bool sampleDistant(LightRecord light, vec2 u, inout LightSample ls) {
+    vec3 axis = distantAxis(light);
+    ls.radiance = light.radiance;
+    float x = u.x * light.area / (2.0 * PI); // 1 - cosine
+    float sine = sqrt(max(0.0, x * (2.0 - x))), phi = 2.0 * PI * u.y;
+    ls.wi = frameAround(axis) * vec3(sine * cos(phi), sine * sin(phi), 1.0 - x);
+    ls.pdf = light.area > 0.0 ? 1.0 / light.area : 1.0;
+    return true;
+}
+
+bool sampleEnvironment(SceneRecord scene, LightRecord light, vec2 u, inout LightSample ls) {
+    if (light.distribution == 0ul) { // uniform radiance
+        float z = 1.0 - 2.0 * u.x, r = sqrt(max(0.0, 1.0 - z * z)), phi = 2.0 * PI * u.y;
+        ls.wi = vec3(r * cos(phi), r * sin(phi), z);
+        ls.pdf = 1.0 / (4.0 * PI);
+        ls.radiance = light.radiance;
+        return true;
+    }
+    vec2 st = sampleDome(light, u, ls.pdf);
+    ls.wi = normalize(mat3(light.lightToWorld) * domeDirection(st));
+    ls.radiance = domeRadiance(scene, light, st);
+    return ls.pdf > 0.0;
+}
+
+// Draws one light and a direction from `p` to it; u.x chooses the light, u.yz the direction. False: no light, or this
+// one cannot be seen from `p`.
+bool sampleLight(SceneRecord scene, vec3 p, vec4 u, out LightSample ls) {
+    if (scene.lightCount == 0u) return false;
+    LightRecord light = LightRef(scene.lights).v[chooseLight(scene, u.x)];
+    ls.lobeScale = vec2(light.diffuse, light.specular);
+    ls.exclusive = isExclusive(light);
+    ls.distance = INFINITE_DISTANCE;
+    bool seen;
+    if (light.kind == LIGHT_DOME) {
+        seen = sampleEnvironment(scene, light, u.yz, ls);
+    } else if (light.kind == LIGHT_DISTANT) {
+        seen = sampleDistant(light, u.yz, ls);
+    } else {
+        LightPoint point;
+        seen = sampleShape(light, p, u.yz, ls.wi, point);
+        ls.distance = point.t;
+        ls.pdf = point.pdf;
+        ls.radiance = shapeRadiance(scene, light, point.st);
+    }
+    ls.pdf *= light.selectPdf;
+    return seen && any(greaterThan(ls.radiance, vec3(0.0)));
+}
+#endif
