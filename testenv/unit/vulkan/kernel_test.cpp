@@ -2,7 +2,7 @@
 #include <thread>
 
 #include "hipr_vulkan_test_kernels.h"
-#include "renderer/vulkan/kernelset.h"
+#include "renderer/vulkan/background_kernels.h"
 #include "testenv/unit/vulkan/fixture.h"
 
 namespace hipr::test {
@@ -112,9 +112,10 @@ KernelSource scaleSource() {
 
 TEST_P(Kernels, SetCompilesInTheBackground) {
     for (const int patience : {0, 10000}) { // with help from other devices, and without
-        KernelSet set(*device, std::vector<KernelSource>(6, scaleSource()),
-                      std::chrono::milliseconds(patience));
+        BackgroundKernels set(*device, std::vector<KernelSource>(6, scaleSource()),
+                              std::chrono::milliseconds(patience));
         set.wait();
+        EXPECT_TRUE(set.ready(std::chrono::milliseconds(0)));
         for (size_t i = 0; i < 6; ++i) {
             Scale scale(*device);
             device->run([&](VkCommandBuffer cmd) { set.get(i).dispatch(cmd, &scale.push, 16); });
@@ -124,15 +125,15 @@ TEST_P(Kernels, SetCompilesInTheBackground) {
 }
 
 TEST_P(Kernels, SetMayGoBeforeItIsDone) {
-    KernelSet(*device, std::vector<KernelSource>(6, scaleSource()), std::chrono::milliseconds(0));
-    KernelSet(*device, {});
+    BackgroundKernels(*device, std::vector<KernelSource>(6, scaleSource()), std::chrono::milliseconds(0));
+    BackgroundKernels(*device, {});
 }
 
 TEST_P(Kernels, SetReportsTheKernelThatFailed) {
     KernelSource greedy = scaleSource();
     greedy.pushBytes = 65536;
     greedy.name = "greedy";
-    KernelSet set(*device, {scaleSource(), greedy, scaleSource()});
+    BackgroundKernels set(*device, {scaleSource(), greedy, scaleSource()});
     EXPECT_NO_THROW(set.get(0));
     EXPECT_THROW(set.get(1), std::runtime_error);
     EXPECT_NO_THROW(set.get(2));

@@ -1,4 +1,4 @@
-#include "renderer/vulkan/kernelset.h"
+#include "renderer/vulkan/background_kernels.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -28,21 +28,22 @@ std::unique_ptr<Device> scratchDevice(const Device& device) {
 
 } // namespace
 
-KernelSet::KernelSet(Device& device, std::vector<KernelSource> sources, std::chrono::milliseconds patience)
+BackgroundKernels::BackgroundKernels(Device& device, std::vector<KernelSource> sources,
+                                     std::chrono::milliseconds patience)
     : _device(device), _patience(patience), _entries(sources.size()) {
     for (size_t i = 0; i < sources.size(); ++i)
         _entries[i].source = sources[i];
     if (sources.empty()) return;
-    _threads.emplace_back(&KernelSet::buildInOrder, this);
+    _threads.emplace_back(&BackgroundKernels::buildInOrder, this);
     // Drivers of real devices compile in the calling thread; they can be assisted without a detour.
     if (device.info().cpu && !sharesThroughDisk(device)) return;
     const size_t cores = std::max(1u, std::thread::hardware_concurrency());
     const size_t assistants = std::min({cores - 1, sources.size() - 1, MaxAssistants});
     for (size_t i = 0; i < assistants; ++i)
-        _threads.emplace_back(&KernelSet::assist, this);
+        _threads.emplace_back(&BackgroundKernels::assist, this);
 }
 
-KernelSet::~KernelSet() {
+BackgroundKernels::~BackgroundKernels() {
     {
         std::lock_guard lock(_mutex);
         _stop = true;
@@ -52,19 +53,19 @@ KernelSet::~KernelSet() {
         t.join();
 }
 
-bool KernelSet::take(size_t* index) {
+bool BackgroundKernels::take(size_t* index) {
     std::lock_guard lock(_mutex);
     if (_stop || _next == _entries.size()) return false;
     *index = _next++;
     return true;
 }
 
-void KernelSet::buildInOrder() {
+void BackgroundKernels::buildInOrder() {
     for (size_t i; take(&i);)
         build(_entries[i], nullptr);
 }
 
-void KernelSet::assist() {
+void BackgroundKernels::assist() {
     for (bool progress = true; progress;) { // nothing came for a while: there is work to share
         std::unique_lock lock(_mutex);
         const size_t seen = _doneCount;
@@ -77,13 +78,13 @@ void KernelSet::assist() {
         build(_entries[i], scratch.get());
 }
 
-Kernel KernelSet::make(Device& device, const KernelSource& s) {
+Kernel BackgroundKernels::make(Device& device, const KernelSource& s) {
     Kernel kernel(device, s.spirv, s.spirvBytes, s.pushBytes, s.name, s.tlas);
     kernel.warm();
     return kernel;
 }
 
-void KernelSet::build(Entry& entry, Device* scratch) {
+void BackgroundKernels::build(Entry& entry, Device* scratch) {
     try {
         if (scratch) make(*scratch, entry.source);
         entry.kernel = make(_device, entry.source);
@@ -94,11 +95,12 @@ void KernelSet::build(Entry& entry, Device* scratch) {
         std::lock_guard lock(_mutex);
         entry.done = true;
         ++_doneCount;
+        if (!_failure) _failure = entry.failure;
     }
     _changed.notify_all();
 }
 
-Kernel& KernelSet::get(size_t index) {
+Kernel& BackgroundKernels::get(size_t index) {
     Entry& entry = _entries.at(index);
     std::unique_lock lock(_mutex);
     _changed.wait(lock, [&] { return entry.done; });
@@ -106,9 +108,16 @@ Kernel& KernelSet::get(size_t index) {
     return entry.kernel;
 }
 
-void KernelSet::wait() {
-    for (size_t i = 0; i < _entries.size(); ++i)
-        get(i);
+bool BackgroundKernels::ready(std::chrono::milliseconds patience) {
+    std::unique_lock lock(_mutex);
+    _changed.wait_for(lock, patience, [&] { return _failure || _doneCount == _entries.size(); });
+    if (_failure) std::rethrow_exception(_failure);
+    return _doneCount == _entries.size();
+}
+
+void BackgroundKernels::wait() {
+    while (!ready(std::chrono::hours(1))) {
+    }
 }
 
 } // namespace hipr

@@ -1,4 +1,4 @@
-/// @file kernelset.h
+/// @file background_kernels.h
 /// Kernels that compile in the background, so that a scene can load meanwhile.
 #pragma once
 
@@ -28,17 +28,20 @@ struct KernelSource {
 /// A CPU device compiles inside its one queue, so that a second core would idle. When a kernel is not there
 /// after `patience` (Mesa's disk cache does not have it), further threads compile the next ones on devices of
 /// their own; the device that needs them then finds them in that cache.
-class KernelSet {
+class BackgroundKernels {
 public:
-    KernelSet(Device& device, std::vector<KernelSource> sources,
-              std::chrono::milliseconds patience = std::chrono::milliseconds(250));
+    BackgroundKernels(Device& device, std::vector<KernelSource> sources,
+                      std::chrono::milliseconds patience = std::chrono::milliseconds(250));
     /// Waits for compilations that have begun; the others are dropped.
-    ~KernelSet();
-    KernelSet(const KernelSet&) = delete;
-    KernelSet& operator=(const KernelSet&) = delete;
+    ~BackgroundKernels();
+    BackgroundKernels(const BackgroundKernels&) = delete;
+    BackgroundKernels& operator=(const BackgroundKernels&) = delete;
 
     /// The kernel, once it is compiled. Throws what its compilation threw. Thread-safe.
     Kernel& get(size_t index);
+    /// Whether all are compiled; waits up to `patience` for it. Throws the first failure, as soon as there is
+    /// one.
+    bool ready(std::chrono::milliseconds patience);
     /// Waits for all; throws the first failure.
     void wait();
 
@@ -62,6 +65,7 @@ private:
     std::mutex _mutex;
     std::condition_variable _changed;
     size_t _next = 0, _doneCount = 0; ///< guarded by _mutex, like Entry::done
+    std::exception_ptr _failure;      ///< the first one
     bool _stop = false;
     std::vector<std::thread> _threads;
 };
