@@ -71,6 +71,21 @@ HIPR_WEAK void (*__MALLOC_HOOK_VOLATILE __free_hook)(void* __ptr,  const void*) 
         "        textures/StinsonBeach.exr\n",
         ""),
     Patch(
+        "CMakeLists.txt",
+        "extras/ holds examples and tutorials, and one of them would be built whatever the options say",
+        "add_subdirectory(extras)\n",
+        ""),
+    Patch(
+        "cmake/defaults/Packages.cmake",
+        "PySide2 and PyOpenGL are needed to run usdview, not to build it; set-up installs them when usdview is asked for",
+        """    # --PySide
+    find_package(PySide REQUIRED)
+    # --PyOpenGL
+    find_package(PyOpenGL REQUIRED)
+""",
+        """    message(STATUS "usdview's Python modules are looked up when it runs")
+"""),
+    Patch(
         "pxr/CMakeLists.txt",
         "export(PACKAGE) writes into the user's CMake registry, where other projects would pick this build up",
         "export(PACKAGE pxr)\n",

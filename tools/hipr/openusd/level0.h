@@ -39,8 +39,7 @@
 #include <utility>
 #include <vector>
 
-// Before boost/python.hpp: Python's headers want to come first, through OpenUSD's guard.
-#include "pxr/base/tf/pySafePython.h"
+#include <boost/python/detail/wrap_python.hpp>
 
 #include <boost/any.hpp>
 #include <boost/enable_shared_from_this.hpp>

@@ -1,26 +1,20 @@
-# Precompiled headers for the OpenUSD build, hooked in with CMAKE_PROJECT_INCLUDE so that its own CMake files
-# stay untouched.  Parsing headers is four fifths of the compile time of this code base; OpenUSD's own
+# Precompiled headers.  Parsing headers is four fifths of the compile time of this code base; OpenUSD's own
 # precompiled headers are one per library (about a hundred, each with Boost.Python in it), which costs more than
 # it saves.  Three shared ones do better:
 #   level 0  third-party headers only                   for the libraries of pxr/base
 #   level 1  + the headers of pxr/base                  for pxr/usd up to `usd`, pxr/imaging, Python modules of base
 #   level 2  + ar, sdf, pcp and usd                     for the schema libraries, usdImaging and their modules
 # A library never gets a header that holds its own API macros: those differ inside and outside of it.
-include_guard(GLOBAL)
-cmake_policy(PUSH)
-cmake_policy(VERSION 3.19)
-
 set(HIPR_PCH_DIR "${CMAKE_CURRENT_LIST_DIR}")
 
 function(hipr_add_precompiled level dependencies)
     set(name hipr_precompiled_${level})
-    file(WRITE "${CMAKE_BINARY_DIR}/${name}.cpp" "// Carries the precompiled header.\n")
+    file(CONFIGURE OUTPUT "${CMAKE_BINARY_DIR}/${name}.cpp" CONTENT "// Carries the precompiled header.\n")
     add_library(${name} OBJECT "${CMAKE_BINARY_DIR}/${name}.cpp")
     set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-    # After the directory of the sources' copies, so that a quoted include finds the same file as elsewhere.
     target_include_directories(${name} PRIVATE "${CMAKE_BINARY_DIR}/include")
-    target_include_directories(${name} SYSTEM PRIVATE
-        ${Boost_INCLUDE_DIRS} ${TBB_INCLUDE_DIRS} ${PYTHON_INCLUDE_DIRS})
+    target_include_directories(${name} SYSTEM PRIVATE ${TBB_INCLUDE_DIRS} ${PYTHON_INCLUDE_DIRS})
+    target_link_libraries(${name} PRIVATE ${Boost_PYTHON_LIBRARY})
     target_compile_definitions(${name} PRIVATE PXR_PYTHON_ENABLED=1)
     target_precompile_headers(${name} PRIVATE "${HIPR_PCH_DIR}/level${level}.h")
     foreach(library IN LISTS dependencies)
@@ -28,23 +22,12 @@ function(hipr_add_precompiled level dependencies)
     endforeach()
 endfunction()
 
-function(hipr_collect_targets directory out)
-    get_property(targets DIRECTORY "${directory}" PROPERTY BUILDSYSTEM_TARGETS)
-    get_property(children DIRECTORY "${directory}" PROPERTY SUBDIRECTORIES)
-    foreach(child IN LISTS children)
-        hipr_collect_targets("${child}" found)
-        list(APPEND targets ${found})
-    endforeach()
-    set(${out} "${targets}" PARENT_SCOPE)
-endfunction()
-
-function(hipr_precompile)
+function(hipr_precompile targets)
     set(base tf gf js trace work plug vt)
     set(core ar kind sdf ndr sdr pcp usd)
     hipr_add_precompiled(0 "arch")
     hipr_add_precompiled(1 "arch;${base}")
     hipr_add_precompiled(2 "arch;${base};${core}")
-    hipr_collect_targets("${CMAKE_SOURCE_DIR}" targets)
     foreach(target IN LISTS targets)
         get_target_property(type ${target} TYPE)
         get_target_property(source ${target} SOURCE_DIR)
@@ -64,6 +47,3 @@ function(hipr_precompile)
         target_precompile_headers(${target} REUSE_FROM hipr_precompiled_${level})
     endforeach()
 endfunction()
-
-cmake_language(DEFER DIRECTORY "${CMAKE_SOURCE_DIR}" CALL hipr_precompile)
-cmake_policy(POP)
