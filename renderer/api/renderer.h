@@ -47,7 +47,9 @@ struct Progress {
     uint32_t samplesDone = 0;   ///< samples every pixel has
     uint32_t samplesTotal = 0;
     uint64_t pathsTraced = 0;
-    uint64_t raysTraced = 0;
+    uint64_t raysTraced = 0;    ///< nearestRays + shadowRays
+    uint64_t nearestRays = 0;   ///< of camera, bounces, and walks through transparent surfaces
+    uint64_t shadowRays = 0;
     double seconds = 0;         ///< time spent in render() since the last restart
     bool converged = false;
 };

@@ -30,7 +30,9 @@ public:
         if (!data.empty()) std::memcpy(_bytes.data() + offset, data.data(), data.size() * sizeof(T));
     }
     uint64_t bytes() const { return _bytes.size(); }
-    void upload(Device& device, const Buffer& buffer) const { device.upload(buffer, _bytes.data(), _bytes.size()); }
+    void upload(Device& device, const Buffer& buffer) const {
+        device.upload(buffer, _bytes.data(), _bytes.size());
+    }
 
 private:
     std::vector<std::byte> _bytes;
@@ -42,7 +44,8 @@ public:
     /// Makes room for `bytes`. Returns true when the contents must be uploaded again.
     bool reserve(Device& device, uint64_t bytes, const char* kind) {
         if (_buffer && bytes <= _buffer.bytes()) return false;
-        _buffer = device.createBuffer(_buffer ? std::max(bytes, 2 * _buffer.bytes()) : bytes, MemoryUse::Device, kind);
+        _buffer = device.createBuffer(_buffer ? std::max(bytes, 2 * _buffer.bytes()) : bytes,
+                                      MemoryUse::Device, kind);
         return true;
     }
     const Buffer& buffer() const { return _buffer; }

@@ -14,7 +14,8 @@ bool finite(const glm::dmat4& m) {
 }
 
 // Depth along the view axis of the clip plane z = ndcZ at the centre of the picture.
-double planeDepth(const glm::dmat4& clipToWorld, double ndcZ, const glm::dvec3& origin, const glm::dvec3& forward) {
+double planeDepth(const glm::dmat4& clipToWorld, double ndcZ, const glm::dvec3& origin,
+                  const glm::dvec3& forward) {
     const glm::dvec4 p = clipToWorld * glm::dvec4(0, 0, ndcZ, 1);
     if (std::abs(p.w) <= 1e-12 * glm::length(glm::dvec3(p))) return std::numeric_limits<float>::max();
     const double depth = glm::dot(glm::dvec3(p) / p.w - origin, forward);
@@ -23,9 +24,9 @@ double planeDepth(const glm::dmat4& clipToWorld, double ndcZ, const glm::dvec3& 
 
 } // namespace
 
-// Let M be the inverse of the clip matrix. All rays pass through the homogeneous point E = M (0, 0, 1, 0): the eye when
-// E.w is not 0, else the common direction. The ray of (x, y) also passes through A = M (x, y, 0, 1), and A.xyz - eye A.w
-// is its direction times A.w, which is affine in x and y.
+// Let M be the inverse of the clip matrix. All rays pass through the homogeneous point E = M (0, 0, 1, 0):
+// the eye when E.w is not 0, else the common direction. The ray of (x, y) also passes through A = M (x, y, 0,
+// 1), and A.xyz - eye A.w is its direction times A.w, which is affine in x and y.
 std::optional<gpu::CameraRecord> cameraRecord(const CameraDesc& camera) {
     const glm::dmat4 worldToClip = camera.projection * camera.worldToView;
     if (!finite(camera.worldToView) || !finite(camera.projection)) return std::nullopt;

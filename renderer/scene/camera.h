@@ -9,8 +9,9 @@
 
 namespace hipr {
 
-/// Works in double precision. Returns nothing when a matrix is not finite or the projection cannot be inverted (a view
-/// of no width, near and far planes that coincide). A far plane at infinity and reversed depth are fine.
+/// Works in double precision. Returns nothing when a matrix is not finite or the projection cannot be
+/// inverted (a view of no width, near and far planes that coincide). A far plane at infinity and reversed
+/// depth are fine.
 std::optional<gpu::CameraRecord> cameraRecord(const CameraDesc& camera);
 
 } // namespace hipr

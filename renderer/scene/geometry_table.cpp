@@ -12,8 +12,10 @@ bool equalPrimvars(const TrianglePrimvar& a, const TrianglePrimvar& b) {
 
 bool equalAttributes(const TriangleMesh& a, const TriangleMesh& b) {
     return a.triangleFace == b.triangleFace && a.triangleSlot == b.triangleSlot && a.normals == b.normals &&
-           a.normalInterpolation == b.normalInterpolation && a.doubleSided == b.doubleSided && a.name == b.name &&
-           std::equal(a.primvars.begin(), a.primvars.end(), b.primvars.begin(), b.primvars.end(), equalPrimvars);
+           a.normalInterpolation == b.normalInterpolation && a.doubleSided == b.doubleSided &&
+           a.name == b.name &&
+           std::equal(a.primvars.begin(), a.primvars.end(), b.primvars.begin(), b.primvars.end(),
+                      equalPrimvars);
 }
 
 bool hasTranslucency(const TriangleMesh& mesh) {
@@ -25,8 +27,8 @@ bool hasTranslucency(const TriangleMesh& mesh) {
 
 uint64_t bytesOf(const TriangleMesh& mesh) {
     uint64_t bytes = mesh.positions.size() * sizeof(glm::vec3) + mesh.triangles.size() * sizeof(glm::uvec3) +
-                     mesh.triangleFace.size() * sizeof(uint32_t) + mesh.triangleSlot.size() * sizeof(uint16_t) +
-                     mesh.normals.size() * sizeof(glm::vec3);
+                     mesh.triangleFace.size() * sizeof(uint32_t) +
+                     mesh.triangleSlot.size() * sizeof(uint16_t) + mesh.normals.size() * sizeof(glm::vec3);
     for (const TrianglePrimvar& primvar : mesh.primvars)
         bytes += primvar.values.size() * sizeof(float);
     return bytes;
@@ -44,7 +46,8 @@ Change GeometryTable::set(GeometryId id, std::shared_ptr<const TriangleMesh> mes
         entry.slot = _freeSlots.back();
         _freeSlots.pop_back();
     } else {
-        const bool sameShape = entry.mesh->positions == mesh->positions && entry.mesh->triangles == mesh->triangles;
+        const bool sameShape =
+            entry.mesh->positions == mesh->positions && entry.mesh->triangles == mesh->triangles;
         if (sameShape && equalAttributes(*entry.mesh, *mesh)) {
             entry.mesh = std::move(mesh);
             return Change::None;
@@ -106,7 +109,8 @@ void GeometryTable::commit(Traversal& traversal) {
 void GeometryTable::uploadShape(Entry& entry) {
     const TriangleMesh& mesh = *entry.mesh;
     BufferPack pack;
-    const uint64_t positions = pack.add(mesh.positions, 16); // host traversals read 4 bytes beyond the last vertex
+    const uint64_t positions =
+        pack.add(mesh.positions, 16); // host traversals read 4 bytes beyond the last vertex
     const uint64_t triangles = pack.add(mesh.triangles);
     _retired.push_back(std::move(entry.shape));
     entry.shape = _device.createBuffer(pack.bytes(), MemoryUse::Device, "Geometry");
@@ -125,8 +129,8 @@ void GeometryTable::uploadAttributes(Entry& entry) {
     const uint64_t slots = pack.add(mesh.triangleSlot);
     std::vector<gpu::PrimvarRecord> primvars;
     for (const TrianglePrimvar& primvar : mesh.primvars)
-        primvars.push_back({pack.add(primvar.values), _names.intern(primvar.name), uint32_t(primvar.interpolation),
-                            primvar.components, 0});
+        primvars.push_back({pack.add(primvar.values), _names.intern(primvar.name),
+                            uint32_t(primvar.interpolation), primvar.components, 0});
     const uint64_t table = pack.reserve(primvars.size() * sizeof(gpu::PrimvarRecord));
     entry.attributes = _device.createBuffer(pack.bytes(), MemoryUse::Device, "Primvars");
     const VkDeviceAddress base = entry.attributes.address();
@@ -140,8 +144,9 @@ void GeometryTable::uploadAttributes(Entry& entry) {
     entry.record.triangleSlot = mesh.triangleSlot.empty() ? 0 : base + slots;
     entry.record.primvars = base + table;
     entry.record.primvarCount = uint32_t(primvars.size());
-    entry.record.flags = (mesh.doubleSided ? gpu::GEOMETRY_DOUBLE_SIDED : 0) |
-                         (mesh.normalInterpolation == Interpolation::FaceVarying ? gpu::GEOMETRY_NORMALS_FACE_VARYING : 0);
+    entry.record.flags =
+        (mesh.doubleSided ? gpu::GEOMETRY_DOUBLE_SIDED : 0) |
+        (mesh.normalInterpolation == Interpolation::FaceVarying ? gpu::GEOMETRY_NORMALS_FACE_VARYING : 0);
 }
 
 void GeometryTable::submit(Entry& entry, Traversal& traversal) {
@@ -150,8 +155,13 @@ void GeometryTable::submit(Entry& entry, Traversal& traversal) {
                               entry.submitted->positions.size() == mesh.positions.size();
     // Where kernels and host share memory the traversal reads the same copy as they do.
     const void* positions = entry.shape.mapped() ? entry.shape.mapped() : mesh.positions.data();
-    GeometryView view{static_cast<const glm::vec3*>(positions), entry.record.vertexCount, mesh.triangles.data(),
-                      entry.record.triangleCount, entry.record.positions, entry.record.triangles, sameTopology};
+    GeometryView view{static_cast<const glm::vec3*>(positions),
+                      entry.record.vertexCount,
+                      mesh.triangles.data(),
+                      entry.record.triangleCount,
+                      entry.record.positions,
+                      entry.record.triangles,
+                      sameTopology};
     traversal.setGeometry(entry.slot, mesh.triangles.empty() ? nullptr : &view);
     entry.submitted = entry.mesh;
 }

@@ -23,8 +23,8 @@ class GeometryTable {
 public:
     GeometryTable(Device& device, NameTable& names) : _device(device), _names(names) {}
 
-    /// Adds or replaces. Returns what differs from the mesh before: None (also for an equal mesh at another address),
-    /// Added, Geometry (positions or triangles), or Primvar (anything else).
+    /// Adds or replaces. Returns what differs from the mesh before: None (also for an equal mesh at another
+    /// address), Added, Geometry (positions or triangles), or Primvar (anything else).
     Change set(GeometryId id, std::shared_ptr<const TriangleMesh> mesh);
     /// Returns whether the geometry existed.
     bool remove(GeometryId id);

@@ -35,7 +35,8 @@ Change lightChange(const LightDesc& a, const LightDesc& b) {
 GpuScene::GpuScene(Device& device, AssetReader assets)
     : _device(device), _textures(device, std::move(assets), ColorManager::create(device.messages())),
       _materials(device, _names, _textures), _lights(device, _textures), _geometries(device, _names),
-      _objects(device, _names), _record(device.createBuffer(sizeof(gpu::SceneRecord), MemoryUse::Device, "Scene")) {}
+      _objects(device, _names),
+      _record(device.createBuffer(sizeof(gpu::SceneRecord), MemoryUse::Device, "Scene")) {}
 
 void GpuScene::setTraversal(std::unique_ptr<Traversal> traversal) {
     _traversal = std::move(traversal);

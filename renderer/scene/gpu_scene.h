@@ -39,8 +39,8 @@ public:
     /// The SceneRecord, once committed.
     VkDeviceAddress address() const { return _record.address(); }
     bool hasNonOpaque() const { return (_hostRecord.flags & gpu::SCENE_HAS_NON_OPAQUE) != 0; }
-    /// Host memory of meshes and of the traversal's structures.
-    uint64_t hostBytes() const { return _geometries.hostBytes(); }
+    uint64_t meshHostBytes() const { return _geometries.hostBytes(); }
+    uint64_t traversalHostBytes() const { return _traversal->hostBytes(); }
 
 private:
     void apply(const SceneEdit::GeometryOp& op, ChangedSet& changed);

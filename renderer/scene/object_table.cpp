@@ -13,15 +13,17 @@ bool finite(const glm::dmat4x3& m) {
 }
 
 glm::dmat4x3 inverseOf(const glm::mat4x3& m) {
-    return glm::dmat4x3(glm::inverse(glm::dmat4(glm::dvec4(m[0], 0), glm::dvec4(m[1], 0), glm::dvec4(m[2], 0),
-                                                glm::dvec4(m[3], 1))));
+    return glm::dmat4x3(glm::inverse(
+        glm::dmat4(glm::dvec4(m[0], 0), glm::dvec4(m[1], 0), glm::dvec4(m[2], 0), glm::dvec4(m[3], 1))));
 }
 
 bool canBeRendered(const glm::mat4x3& m) {
     return finite(glm::dmat4x3(m)) && finite(inverseOf(m)) && finite(glm::dmat4x3(glm::mat4x3(inverseOf(m))));
 }
 
-bool mirrors(const glm::mat4x3& m) { return glm::dot(glm::cross(m[0], m[1]), m[2]) < 0; }
+bool mirrors(const glm::mat4x3& m) {
+    return glm::dot(glm::cross(m[0], m[1]), m[2]) < 0;
+}
 
 // One value per instance, whichever way the primvar is indexed; -1 when it has none for this instance.
 int64_t valueIndex(const Primvar& primvar, size_t instance) {
@@ -46,8 +48,9 @@ void note(ChangedSet& changed, ObjectId id, Change change, uint32_t instance = C
 } // namespace
 
 bool ObjectTable::Placement::operator==(const Placement& o) const {
-    return first == o.first && count == o.count && geometry == o.geometry && firstMaterial == o.firstMaterial &&
-           materialCount == o.materialCount && flags == o.flags && primId == o.primId;
+    return first == o.first && count == o.count && geometry == o.geometry &&
+           firstMaterial == o.firstMaterial && materialCount == o.materialCount && flags == o.flags &&
+           primId == o.primId;
 }
 
 void ObjectTable::setObject(ObjectId id, const ObjectDesc& desc, ChangedSet& changed) {
@@ -116,9 +119,10 @@ void ObjectTable::findUsable(Entry& entry) {
         if (canBeRendered(transforms[i])) entry.usable.push_back(i);
     const size_t skipped = transforms.size() - entry.usable.size();
     if (skipped == 0) return;
-    _device.messages()(Severity::Warning, entry.desc->name,
-                       std::to_string(skipped) + " of " + std::to_string(transforms.size()) +
-                           " instances have a transform that is not finite or has no volume; they are not rendered");
+    _device.messages()(
+        Severity::Warning, entry.desc->name,
+        std::to_string(skipped) + " of " + std::to_string(transforms.size()) +
+            " instances have a transform that is not finite or has no volume; they are not rendered");
 }
 
 void ObjectTable::uploadPrimvars(Entry& entry) {
@@ -135,7 +139,8 @@ void ObjectTable::uploadPrimvars(Entry& entry) {
                                           [&](uint32_t i) { return valueIndex(primvar, i) >= 0; });
         if (!complete) {
             _device.messages()(Severity::Warning, entry.desc->name,
-                               "instance primvar '" + primvar.name + "' has no value for some instances; ignored");
+                               "instance primvar '" + primvar.name +
+                                   "' has no value for some instances; ignored");
             continue;
         }
         used.push_back(&primvar);
@@ -146,17 +151,19 @@ void ObjectTable::uploadPrimvars(Entry& entry) {
     std::vector<gpu::PrimvarRecord> records;
     for (uint32_t instance : entry.usable)
         for (size_t i = 0; i < used.size(); ++i)
-            records.push_back({entry.primvars.address() + offsets[i] +
-                                   uint64_t(valueIndex(*used[i], instance)) * used[i]->components * sizeof(float),
-                               _names.intern(used[i]->name), gpu::INTERPOLATION_CONSTANT, used[i]->components, 0});
+            records.push_back(
+                {entry.primvars.address() + offsets[i] +
+                     uint64_t(valueIndex(*used[i], instance)) * used[i]->components * sizeof(float),
+                 _names.intern(used[i]->name), gpu::INTERPOLATION_CONSTANT, used[i]->components, 0});
     pack.write(table, records);
     pack.upload(_device, entry.primvars);
     entry.primvarCount = uint32_t(used.size());
     entry.primvarTable = entry.primvars.address() + table;
 }
 
-ObjectTable::Placement ObjectTable::place(Entry& entry, const Geometry* geometry, const MaterialTable* materials,
-                                          uint32_t first, std::vector<uint32_t>& materialIndices) {
+ObjectTable::Placement ObjectTable::place(Entry& entry, const Geometry* geometry,
+                                          const MaterialTable* materials, uint32_t first,
+                                          std::vector<uint32_t>& materialIndices) {
     Placement placement;
     placement.first = first;
     placement.firstMaterial = uint32_t(materialIndices.size());
@@ -182,7 +189,8 @@ void ObjectTable::writeRecords(ObjectId id, Entry& entry) {
     const Placement& placed = entry.placed;
     for (uint32_t i = 0; i < placed.count; ++i) {
         const uint32_t source = entry.usable[i];
-        const glm::mat4x3 transform = entry.instances ? entry.instances->transforms[source] : glm::mat4x3(1.f);
+        const glm::mat4x3 transform =
+            entry.instances ? entry.instances->transforms[source] : glm::mat4x3(1.f);
         const bool hasIds = entry.instances && source < entry.instances->instanceIds.size();
         gpu::InstanceRecord& record = _records[placed.first + i];
         record.objectToWorld = transform;
@@ -195,12 +203,14 @@ void ObjectTable::writeRecords(ObjectId id, Entry& entry) {
         record.instanceId = hasIds ? entry.instances->instanceIds[source] : int(source);
         record.object = uint32_t(id);
         record.primvarCount = entry.primvarCount;
-        record.primvars = entry.primvarCount ? entry.primvarTable + i * entry.primvarCount * sizeof(gpu::PrimvarRecord) : 0;
+        record.primvars =
+            entry.primvarCount ? entry.primvarTable + i * entry.primvarCount * sizeof(gpu::PrimvarRecord) : 0;
     }
 }
 
 void ObjectTable::updateBounds(Entry& entry, const TriangleMesh& mesh) {
-    const glm::vec3 centre = 0.5f * (mesh.boundsMin + mesh.boundsMax), half = 0.5f * (mesh.boundsMax - mesh.boundsMin);
+    const glm::vec3 centre = 0.5f * (mesh.boundsMin + mesh.boundsMax),
+                    half = 0.5f * (mesh.boundsMax - mesh.boundsMin);
     entry.boundsMin = glm::vec3(std::numeric_limits<float>::max());
     entry.boundsMax = -entry.boundsMin;
     for (uint32_t i = 0; i < entry.placed.count; ++i) {
@@ -240,7 +250,8 @@ bool ObjectTable::commit(const GeometryTable& geometries, const MaterialTable* m
     if (materialIndices != _materialIndices) {
         _materialIndices = std::move(materialIndices);
         _materialTable.reserve(_device, _materialIndices.size() * sizeof(uint32_t), "Instance tables");
-        _device.upload(_materialTable.buffer(), _materialIndices.data(), _materialIndices.size() * sizeof(uint32_t));
+        _device.upload(_materialTable.buffer(), _materialIndices.data(),
+                       _materialIndices.size() * sizeof(uint32_t));
     }
     summarise(geometries);
     return resized || !rewritten.empty();
@@ -253,8 +264,10 @@ void ObjectTable::uploadRecords(const std::vector<std::pair<ObjectId, Entry*>>& 
         begin = std::min<size_t>(begin, entry->placed.first);
         end = std::max<size_t>(end, entry->placed.first + entry->placed.count);
     }
-    if (_recordTable.reserve(_device, _records.size() * Stride, "Instance tables")) begin = 0, end = _records.size();
-    if (begin < end) _device.upload(_recordTable.buffer(), &_records[begin], (end - begin) * Stride, begin * Stride);
+    if (_recordTable.reserve(_device, _records.size() * Stride, "Instance tables"))
+        begin = 0, end = _records.size();
+    if (begin < end)
+        _device.upload(_recordTable.buffer(), &_records[begin], (end - begin) * Stride, begin * Stride);
 }
 
 void ObjectTable::summarise(const GeometryTable& geometries) {

@@ -11,7 +11,8 @@
 
 namespace hipr {
 
-/// Instances are laid out by object id, so that a scene looks the same to the last bit whatever edits led to it.
+/// Instances are laid out by object id, so that a scene looks the same to the last bit whatever edits led to
+/// it.
 class ObjectTable {
 public:
     ObjectTable(Device& device, NameTable& names) : _device(device), _names(names) {}
@@ -23,8 +24,8 @@ public:
     /// Reports a change of a geometry for all objects that show it.
     void geometryChanged(GeometryId id, Change change, ChangedSet& changed);
 
-    /// Brings the tables up to date with objects, geometries and materials. Returns whether an instance changed in a way
-    /// a traversal must know. `materials` null: every object shows the fallback look.
+    /// Brings the tables up to date with objects, geometries and materials. Returns whether an instance
+    /// changed in a way a traversal must know. `materials` null: every object shows the fallback look.
     bool commit(const GeometryTable& geometries, const MaterialTable* materials);
 
     const std::vector<gpu::InstanceRecord>& records() const { return _records; }

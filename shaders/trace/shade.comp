@@ -24,15 +24,14 @@ vec3 offsetTowards(Surface surface, vec3 direction) {
     return offsetOrigin(surface.position, dot(surface.ng, direction) < 0.0 ? -surface.ng : surface.ng);
 }
 
-// Next event estimation: the light of one emitter, weighted against finding it by BSDF sampling with the power
-// heuristic (E. Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, section 9.2.4).
+// Next event estimation: the light of one emitter, weighted against finding it by BSDF sampling.
 void sampleDirectLight(TraceRecord trace, SceneRecord scene, inout PathState path, uint slot, Surface surface, vec3 wo) {
     LightSample light;
     if (!sampleLight(scene, surface.position, randomVector(trace, path, RANDOM_LIGHT), light)) return;
     float bsdfPdf;
-    const vec3 f = evalBsdf(surface, wo, light.wi, bsdfPdf);
-    const float ratio = light.delta ? 0.0 : bsdfPdf / light.pdf;
-    const vec3 contribution = path.throughput * f * light.radiance / (light.pdf * (1.0 + ratio * ratio));
+    const vec3 f = evalBsdfScaled(surface, wo, light.wi, light.lobeScale, bsdfPdf);
+    const vec3 contribution =
+        path.throughput * f * light.radiance * (lightMisWeight(light, bsdfPdf) / light.pdf);
     if (!allFinite(contribution)) {
         addRadiance(trace, path, contribution, false); // counts it
         return;

@@ -1,0 +1,31 @@
+/// @file batch_size.h
+/// How many paths a batch should have.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace hipr {
+
+/// Steers batches towards a duration at which a host stays responsive: doubles when they are short, halves
+/// when they are long. Starts small, so that the first picture comes soon.
+class BatchSize {
+public:
+    static constexpr uint32_t Smallest = 2048, First = 8192;
+    static constexpr double Short = 0.020, Long = 0.050; ///< seconds
+
+    explicit BatchSize(uint32_t capacity) : _capacity(capacity), _paths(std::min(First, capacity)) {}
+
+    uint32_t paths() const { return _paths; }
+    /// Reports a batch: how many paths it had and how long it took.
+    void report(uint32_t paths, double seconds) {
+        if (seconds > Long && paths >= _paths / 2)
+            _paths = std::max(_paths / 2, std::min(Smallest, _capacity));
+        if (seconds < Short && paths >= _paths / 2) _paths = std::min(2 * _paths, _capacity);
+    }
+
+private:
+    uint32_t _capacity, _paths;
+};
+
+} // namespace hipr

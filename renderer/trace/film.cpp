@@ -1,0 +1,100 @@
+#include "renderer/trace/film.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace hipr {
+namespace {
+
+constexpr uint32_t MaxSide = 65535; // PathState::pixel packs both coordinates
+
+bool isSum(AovKind kind) {
+    return kind == AovKind::Color || kind == AovKind::Albedo || kind == AovKind::SampleCount;
+}
+
+/// The word an AOV holds where nothing is seen.
+uint32_t missWord(AovKind kind) {
+    if (aovFormat(kind).integer) return uint32_t(-1);
+    const float value = kind == AovKind::Depth ? 1.f : 0.f;
+    uint32_t word;
+    std::memcpy(&word, &value, sizeof(word));
+    return word;
+}
+
+} // namespace
+
+void FilmBuffers::setDesc(const FilmDesc& desc) {
+    _sums = {}, _visibility = {}, _targets = {};
+    _firstHits.clear();
+    _desc = desc;
+    const bool fits = std::max(desc.width, desc.height) <= MaxSide;
+    _width = fits ? desc.width : 0;
+    _height = fits ? desc.height : 0;
+    if (!fits)
+        _device.messages()(Severity::Error, "",
+                           "a picture of " + std::to_string(desc.width) + " x " +
+                               std::to_string(desc.height) + " is too large; the limit is " +
+                               std::to_string(MaxSide) + " pixels a side");
+    if (pixels() == 0) return;
+
+    const std::vector<gpu::FilmPixel> black(pixels());
+    _sums = _device.createFrom(black.data(), black.size(), "Film");
+    std::vector<gpu::AovTarget> targets;
+    for (const AovRequest& request : _desc.aovs) {
+        if (isSum(request.kind)) continue;
+        const std::vector<uint32_t> miss(pixels() * aovFormat(request.kind).components,
+                                         missWord(request.kind));
+        _firstHits.push_back({request, _device.createFrom(miss.data(), miss.size(), "Film")});
+        const bool primvar = request.kind == AovKind::Primvar;
+        targets.push_back({_firstHits.back().values.address(), uint32_t(request.kind),
+                           primvar ? _names.intern(request.primvar) : gpu::NO_INDEX});
+    }
+    if (targets.empty()) return;
+    _targets = _device.createFrom(targets.data(), targets.size(), "Film");
+    _visibility = _device.createBuffer(pixels() * sizeof(gpu::VisibilityRecord), MemoryUse::Device, "Film");
+}
+
+void FilmBuffers::describe(gpu::TraceRecord& record) const {
+    record.film = _sums ? _sums.address() : 0;
+    record.visibility = _visibility ? _visibility.address() : 0;
+    record.aovs = _targets ? _targets.address() : 0;
+    record.aovCount = uint32_t(_firstHits.size());
+    record.width = _width;
+    record.height = _height;
+}
+
+bool FilmBuffers::read(const AovRequest& aov, void* dst, size_t words) const {
+    if (std::find(_desc.aovs.begin(), _desc.aovs.end(), aov) == _desc.aovs.end()) return false;
+    if (words != pixels() * aovFormat(aov.kind).components) return false;
+    if (words == 0) return true;
+    if (isSum(aov.kind)) {
+        readSums(aov.kind, static_cast<uint32_t*>(dst));
+        return true;
+    }
+    for (const FirstHitAov& firstHit : _firstHits)
+        if (firstHit.request == aov) _device.download(firstHit.values, dst, words * sizeof(uint32_t));
+    return true;
+}
+
+void FilmBuffers::readSums(AovKind kind, uint32_t* dst) const {
+    std::vector<gpu::FilmPixel> copy;
+    const gpu::FilmPixel* sums = _sums.mapped<gpu::FilmPixel>();
+    if (!sums) {
+        copy.resize(pixels());
+        _device.download(_sums, copy.data(), copy.size() * sizeof(gpu::FilmPixel));
+        sums = copy.data();
+    }
+    const uint32_t components = aovFormat(kind).components;
+    for (uint64_t i = 0; i < pixels(); ++i) {
+        const gpu::FilmPixel& sum = sums[i];
+        const float weight = sum.count ? 1.f / float(sum.count) : 0.f;
+        if (kind == AovKind::SampleCount) {
+            dst[i] = sum.count;
+        } else {
+            const glm::vec4 mean = (kind == AovKind::Color ? sum.color : glm::vec4(sum.albedo, 0.f)) * weight;
+            std::memcpy(dst + i * components, &mean, components * sizeof(float));
+        }
+    }
+}
+
+} // namespace hipr

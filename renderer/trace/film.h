@@ -1,0 +1,51 @@
+/// @file film.h
+/// Pixels: sums over samples, the first hit of every pixel centre, and the AOVs that follow from either.
+#pragma once
+
+#include <vector>
+
+#include "renderer/api/film.h"
+#include "renderer/shading/names.h"
+#include "renderer/vulkan/device.h"
+#include "shaders/shared/scene.h"
+#include "shaders/shared/trace.h"
+
+namespace hipr {
+
+/// After a restart the pixels keep their old picture until their first new sample.
+class FilmBuffers {
+public:
+    FilmBuffers(Device& device, NameTable& names) : _device(device), _names(names) {}
+
+    /// Allocates and clears; every AOV then holds what it shows where nothing is seen. A film without pixels
+    /// is fine; one too large for the renderer gives an error message and counts as such.
+    void setDesc(const FilmDesc& desc);
+    const FilmDesc& desc() const { return _desc; }
+    /// The size that is rendered.
+    uint32_t width() const { return _width; }
+    uint32_t height() const { return _height; }
+    uint64_t pixels() const { return uint64_t(_width) * _height; }
+    /// Whether an AOV shows the first hit.
+    bool wantsFirstHits() const { return !_firstHits.empty(); }
+
+    void describe(gpu::TraceRecord& record) const;
+
+    /// See Renderer::readAov().
+    bool read(const AovRequest& aov, void* dst, size_t words) const;
+
+private:
+    struct FirstHitAov {
+        AovRequest request;
+        Buffer values;
+    };
+    void readSums(AovKind kind, uint32_t* dst) const;
+
+    Device& _device;
+    NameTable& _names;
+    FilmDesc _desc; ///< as asked for
+    uint32_t _width = 0, _height = 0;
+    Buffer _sums, _visibility, _targets;
+    std::vector<FirstHitAov> _firstHits;
+};
+
+} // namespace hipr

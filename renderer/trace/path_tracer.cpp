@@ -1,0 +1,146 @@
+#include "renderer/trace/path_tracer.h"
+
+#include <algorithm>
+
+namespace hipr {
+namespace {
+
+/// Rounds recorded before the host looks whether any path is left, when the traversal runs on the device.
+constexpr uint32_t RoundsPerLook = 8;
+
+constexpr uint32_t bit(uint32_t queue) {
+    return 1u << queue;
+}
+constexpr uint32_t AllQueues = (1u << gpu::QUEUE_COUNT) - 1;
+
+uint32_t groupsOf(uint32_t invocations) {
+    return (invocations + gpu::TRACE_GROUP_SIZE - 1) / gpu::TRACE_GROUP_SIZE;
+}
+
+} // namespace
+
+PathTracer::PathTracer(Device& device, uint32_t capacity)
+    : _device(device), _kernels(device, traceKernelSources()), _buffers(device, capacity),
+      _record(device.createBuffer(sizeof(gpu::TraceRecord), MemoryUse::Device, "Path queues")),
+      _camera(device.createBuffer(sizeof(gpu::CameraRecord), MemoryUse::Device, "Path queues")) {}
+
+void PathTracer::setup(gpu::TraceRecord record, const gpu::CameraRecord& camera, bool sceneHasNonOpaque) {
+    _buffers.describe(record);
+    record.camera = _camera.address();
+    _scene = record.scene;
+    _nonOpaque = sceneHasNonOpaque;
+    _device.upload(_record, &record, sizeof(record));
+    _device.upload(_camera, &camera, sizeof(camera));
+}
+
+/// Sizes the dispatches of the queues in `close`, then empties those in `clear`.
+void PathTracer::prepare(Steps& steps, uint32_t close, uint32_t clear) {
+    gpu::TraceKernelPush p = push();
+    p.first = close | clear << 8;
+    steps.run("prepare", [this, p](VkCommandBuffer cmd) { kernel(KernelId::Prepare).dispatch(cmd, &p, 1); });
+}
+
+void PathTracer::dispatchQueue(Steps& steps, const char* name, KernelId id, uint32_t queue, uint32_t turn) {
+    gpu::TraceKernelPush p = push();
+    p.turn = turn;
+    steps.run(name, [this, p, id, queue](VkCommandBuffer cmd) {
+        kernel(id).dispatchIndirect(cmd, &p, _buffers.headers,
+                                    WavefrontBuffers::headerOffset(queue) +
+                                        offsetof(gpu::QueueHeader, groupsX));
+    });
+}
+
+uint32_t PathTracer::queueCount(uint32_t queue) {
+    gpu::QueueHeader header;
+    _device.download(_buffers.headers, &header, sizeof(header), WavefrontBuffers::headerOffset(queue));
+    return header.count;
+}
+
+void PathTracer::raygen(Steps& steps, const std::vector<gpu::TileWork>& tiles, uint32_t paths) {
+    uint32_t slots = 0; // of the largest tile
+    for (const gpu::TileWork& tile : tiles)
+        slots = std::max(slots, tile.width * tile.height * tile.sampleCount);
+    gpu::TraceKernelPush p = push();
+    p.count = paths;
+    steps.run("raygen", [this, p, slots, count = uint32_t(tiles.size())](VkCommandBuffer cmd) {
+        kernel(KernelId::Raygen).dispatch(cmd, &p, groupsOf(slots), count);
+    });
+    prepare(steps, bit(gpu::QUEUE_RAYS), AllQueues & ~bit(gpu::QUEUE_RAYS));
+}
+
+/// Adds the light of shadow rays that arrive.
+void PathTracer::resolveShadows(Steps& steps, uint32_t turn) {
+    steps.occluded("trace shadow", _buffers.shadowQueue(turn));
+    dispatchQueue(steps, "shadow", KernelId::Shadow, gpu::QUEUE_SHADOW + turn, turn);
+    if (!_nonOpaque) return;
+    for (uint32_t i = 0; i < gpu::SHADOW_PASS_LIMIT; ++i) {
+        const uint32_t queue = gpu::QUEUE_TRANSMIT + i % 2, other = gpu::QUEUE_TRANSMIT + (i + 1) % 2;
+        prepare(steps, bit(queue), bit(other));
+        if (steps.onHost()) {
+            steps.flush();
+            if (queueCount(queue) == 0) break;
+        }
+        steps.nearest("trace transmit", _buffers.transmitQueue(i % 2));
+        dispatchQueue(steps, "transmit", KernelId::Transmit, queue, i % 2);
+    }
+    prepare(steps, 0, bit(gpu::QUEUE_TRANSMIT) | bit(gpu::QUEUE_TRANSMIT + 1));
+}
+
+bool PathTracer::trace(Traversal& traversal, const std::vector<gpu::TileWork>& tiles, uint32_t paths,
+                       const std::atomic<bool>& cancel) {
+    Steps steps(_device, traversal, _scene, _profile);
+    _device.upload(_buffers.tiles, tiles.data(), tiles.size() * sizeof(gpu::TileWork));
+    raygen(steps, tiles, paths);
+    for (uint32_t round = 0;; ++round) {
+        const uint32_t turn = round % 2, other = 1 - turn;
+        if (cancel) return false;
+        steps.nearest("trace rays", _buffers.rayQueue(turn));
+        if (round > 0) resolveShadows(steps, other);
+        dispatchQueue(steps, "shade", KernelId::Shade, gpu::QUEUE_RAYS + turn, turn);
+        prepare(steps, bit(gpu::QUEUE_RAYS + other) | bit(gpu::QUEUE_SHADOW + turn),
+                bit(gpu::QUEUE_RAYS + turn) | bit(gpu::QUEUE_SHADOW + other));
+        if (!steps.onHost() && round % RoundsPerLook != RoundsPerLook - 1) continue;
+        steps.flush();
+        if (queueCount(gpu::QUEUE_RAYS + other) == 0 && queueCount(gpu::QUEUE_SHADOW + turn) == 0) break;
+    }
+    uint32_t pixels = 0; // of the largest tile
+    for (const gpu::TileWork& tile : tiles)
+        pixels = std::max(pixels, tile.width * tile.height);
+    steps.run("resolve", [this, pixels, p = push(), count = uint32_t(tiles.size())](VkCommandBuffer cmd) {
+        kernel(KernelId::Resolve).dispatch(cmd, &p, groupsOf(pixels), count);
+    });
+    steps.flush();
+    return true;
+}
+
+bool PathTracer::findFirstHits(Traversal& traversal, uint32_t first, uint32_t count,
+                               const std::atomic<bool>& cancel) {
+    Steps steps(_device, traversal, _scene, _profile);
+    gpu::TraceKernelPush p = push();
+    p.first = first;
+    p.count = count;
+    steps.run("visibility rays", [this, p, count](VkCommandBuffer cmd) {
+        kernel(KernelId::VisibilityRays).dispatch(cmd, &p, groupsOf(count));
+    });
+    prepare(steps, bit(gpu::QUEUE_RAYS), AllQueues & ~bit(gpu::QUEUE_RAYS));
+    for (uint32_t round = 0; round <= gpu::PATH_PASS_LIMIT; ++round) {
+        const uint32_t turn = round % 2, other = 1 - turn;
+        if (cancel) return false;
+        steps.nearest("trace first hits", _buffers.rayQueue(turn));
+        dispatchQueue(steps, "visibility", KernelId::Visibility, gpu::QUEUE_RAYS + turn, turn);
+        prepare(steps, bit(gpu::QUEUE_RAYS + other), bit(gpu::QUEUE_RAYS + turn));
+        steps.flush();
+        if (queueCount(gpu::QUEUE_RAYS + other) == 0) break;
+    }
+    return true;
+}
+
+gpu::TraceCounters PathTracer::takeCounters() {
+    gpu::TraceCounters counters;
+    const gpu::TraceCounters zero{};
+    _device.download(_buffers.counters, &counters, sizeof(counters));
+    _device.upload(_buffers.counters, &zero, sizeof(zero));
+    return counters;
+}
+
+} // namespace hipr

@@ -1,0 +1,83 @@
+/// @file path_tracer.h
+/// The wavefront path tracer.
+///
+/// A batch is a list of tiles times sample ranges; every sample is one path and has one slot of PathState.
+/// Kernels pass paths on through queues of rays:
+///
+///     raygen                                      one camera ray a slot
+///     round: nearest -> [occluded -> shadow]      hits of the rays; light that arrived from the round before
+///            -> shade                             collects light, scatters; fills the shadow queue and the
+///            other
+///            -> prepare                           ray queue; sizes the next dispatches
+///     resolve                                     adds the samples of each pixel to the film, in order
+///
+/// `nearest` and `occluded` are stages of a Traversal (renderer/accel). One that runs on the device is
+/// recorded between the kernels, several rounds to a submission; one on the host (Embree) runs between
+/// submissions on the same, mapped queues. Rounds end when the queues are empty.
+///
+/// Estimator: next event estimation and BSDF sampling, weighted by the power heuristic; emitters are ghosts
+/// that rays collect and cross; Russian roulette from Settings::rouletteDepth. After the last bounce
+/// (Settings::maxDepth) the BSDF sample is still traced, and collects light only, so that both halves of the
+/// last bounce's estimate exist. A surface of presence below 1 lets paths through at random without counting
+/// a bounce, and shadow rays through attenuated: they first test opaque instances, survivors then walk the
+/// others hit by hit. Both walks are bounded (PATH_PASS_LIMIT, SHADOW_PASS_LIMIT in shaders/shared/trace.h).
+///
+/// Alpha is 1 where a sample saw a surface or the shape of a light, 0 where it saw only the sky or nothing.
+///
+/// Same picture whatever the batch: random numbers depend on (pixel, sample, event) alone, a path's
+/// contributions are added by itself in the order of its events, and resolve sums the samples of a pixel in
+/// order. Queue positions, which depend on timing, enter no result.
+///
+/// Profile: HIPR_PROFILE=1 submits every kernel by itself and prints the time of each step at the end.
+#pragma once
+
+#include <atomic>
+
+#include "renderer/trace/steps.h"
+#include "renderer/trace/trace_kernels.h"
+#include "renderer/trace/wavefront_buffers.h"
+
+namespace hipr {
+
+class PathTracer {
+public:
+    /// `capacity`: paths a batch can hold.
+    PathTracer(Device& device, uint32_t capacity);
+
+    /// Whether all kernels are compiled; waits up to `patience` for it.
+    bool ready(std::chrono::milliseconds patience) { return _kernels.ready(patience); }
+    uint32_t capacity() const { return _buffers.capacity; }
+
+    /// What the next batches render: addresses of scene and film, film size and settings are the caller's to
+    /// fill in.
+    void setup(gpu::TraceRecord record, const gpu::CameraRecord& camera, bool sceneHasNonOpaque);
+
+    /// Renders the tiles and adds them to the film. False when `cancel` was seen: then the film is as before.
+    bool trace(Traversal& traversal, const std::vector<gpu::TileWork>& tiles, uint32_t paths,
+               const std::atomic<bool>& cancel);
+
+    /// Finds the first hits of pixels [first, first + count), count <= capacity, and stores their AOVs.
+    bool findFirstHits(Traversal& traversal, uint32_t first, uint32_t count, const std::atomic<bool>& cancel);
+
+    /// Counts since the last call.
+    gpu::TraceCounters takeCounters();
+
+private:
+    void raygen(Steps& steps, const std::vector<gpu::TileWork>& tiles, uint32_t paths);
+    void prepare(Steps& steps, uint32_t close, uint32_t clear);
+    void dispatchQueue(Steps& steps, const char* name, KernelId id, uint32_t queue, uint32_t turn);
+    void resolveShadows(Steps& steps, uint32_t turn);
+    const Kernel& kernel(KernelId id) { return _kernels.get(size_t(id)); }
+    uint32_t queueCount(uint32_t queue);
+    gpu::TraceKernelPush push() const { return {_record.address(), 0, 0, 0, 0}; }
+
+    Device& _device;
+    BackgroundKernels _kernels;
+    WavefrontBuffers _buffers;
+    Buffer _record, _camera;
+    VkDeviceAddress _scene = 0;
+    bool _nonOpaque = false;
+    Profile _profile;
+};
+
+} // namespace hipr

@@ -1,0 +1,255 @@
+#include <chrono>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
+#include "renderer/scene/camera.h"
+#include "renderer/trace/renderer_impl.h"
+
+namespace hipr {
+namespace {
+
+void printMessage(Severity severity, const std::string& subject, const std::string& text) {
+    const char* level = severity == Severity::Error     ? "error: "
+                        : severity == Severity::Warning ? "warning: "
+                                                        : "";
+    std::cerr << "hipr: " << level << subject << (subject.empty() ? "" : ": ") << text << std::endl;
+}
+
+std::vector<unsigned char> readFile(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+/// Paths a batch can hold: enough to fill the device, not more than its caches and memory like.
+uint32_t batchCapacity(const DeviceInfo& device) {
+    return device.cpu ? 1u << 16 : 1u << 20;
+}
+
+/// Position of an enum setting's value among its choices.
+uint32_t choiceIndex(const char* setting, const std::string& value) {
+    for (const SettingInfo& info : settingTable())
+        for (size_t i = 0; i < info.choices.size(); ++i)
+            if (std::string(info.name) == setting && info.choices[i] == value) return uint32_t(i);
+    return 0;
+}
+
+/// Whether a picture under way with settings `a` goes on under `b`.
+bool samePicture(const Settings& a, const Settings& b) {
+    Settings c = a;
+    c.samples = b.samples;
+    c.traversal = b.traversal; // all traversals report the same hits
+    return c == b;
+}
+
+double secondsSince(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+} // namespace
+
+RendererImpl::RendererImpl(std::unique_ptr<Device> device, const RendererOptions& options,
+                           const RendererInternals& internals)
+    : _device(std::move(device)), _internals(internals), _scene(*_device, options.assets),
+      _film(*_device, _scene.names()),
+      _tracer(*_device, std::max(batchCapacity(_device->info()), internals.batchPaths)),
+      _batch(_tracer.capacity()) {
+    selectTraversal();
+    _scene.commit();
+}
+
+/// Runs `work`. What escapes it ends the renderer's life with one message: false is all callers see from then
+/// on.
+template <class F> bool RendererImpl::guarded(F&& work) {
+    if (_failed) return false;
+    try {
+        return work();
+    } catch (const std::bad_alloc&) {
+        fail("out of memory; rendering stops");
+    } catch (const std::exception& e) {
+        fail(std::string(e.what()) + "; rendering stops");
+    }
+    return false;
+}
+
+void RendererImpl::fail(const std::string& reason) {
+    _failed = true;
+    _device->messages()(Severity::Error, "", reason);
+}
+
+void RendererImpl::selectTraversal() {
+    if (_settings.traversal == _traversalInUse) return;
+    TraversalKind kind = defaultTraversal(*_device);
+    if (_settings.traversal == "embree") kind = TraversalKind::Embree;
+    if (_settings.traversal == "bvh") kind = TraversalKind::Bvh;
+    if (_settings.traversal == "rayquery") kind = TraversalKind::RayQuery;
+    try {
+        _scene.setTraversal(createTraversal(kind, *_device));
+    } catch (const std::runtime_error& e) {
+        if (_settings.traversal == "auto") throw;
+        _device->messages()(Severity::Error, "",
+                            std::string(e.what()) + "; choosing a traversal by device instead");
+        _scene.setTraversal(createTraversal(defaultTraversal(*_device), *_device));
+    }
+    _traversalInUse = _settings.traversal;
+}
+
+ChangedSet RendererImpl::commit(SceneEdit& edit) {
+    ChangedSet changed;
+    guarded([&] {
+        changed = _scene.apply(edit.take());
+        if (changed.empty()) return true;
+        _scene.commit();
+        restart();
+        return true;
+    });
+    return changed;
+}
+
+void RendererImpl::setFilm(const FilmDesc& film) {
+    guarded([&] {
+        if (film == _film.desc()) return true;
+        _film.setDesc(film);
+        restart();
+        return true;
+    });
+}
+
+void RendererImpl::setSettings(const Settings& settings) {
+    guarded([&] {
+        const bool same = samePicture(_settings, settings);
+        _settings = settings;
+        const std::string traversal = _traversalInUse;
+        selectTraversal();
+        const bool options = _scene.setOptions(
+            {settings.enableSceneLights, settings.enableSceneMaterials, settings.domeLightCameraVisibility});
+        if (options || traversal != _traversalInUse) _scene.commit();
+        _setupPending = true;
+        if (!same) restart();
+        std::lock_guard<std::mutex> lock(_progressMutex);
+        _progress.samplesTotal = uint32_t(settings.samples);
+        return true;
+    });
+}
+
+void RendererImpl::restart() {
+    _schedule.restart(_film.width(), _film.height(), _internals.tileSize);
+    _setupPending = true;
+    _firstHitsDone = _film.wantsFirstHits() ? 0 : _film.pixels();
+    std::lock_guard<std::mutex> lock(_progressMutex);
+    _progress = {};
+    _progress.samplesTotal = uint32_t(_settings.samples);
+}
+
+/// Tells the path tracer what to render. False: there is nothing to render.
+bool RendererImpl::setup() {
+    if (!_scene.camera() || _film.pixels() == 0) return false;
+    const std::optional<gpu::CameraRecord> camera = cameraRecord(*_scene.camera());
+    if (!camera && !_cameraReported)
+        _device->messages()(Severity::Error, "",
+                            "the camera's matrices cannot be inverted; nothing is rendered");
+    _cameraReported = !camera;
+    if (!camera) return false;
+    if (!_setupPending) return true;
+    gpu::TraceRecord record{};
+    _film.describe(record);
+    record.scene = _scene.address();
+    record.maxDepth = uint32_t(_settings.maxDepth);
+    record.rouletteDepth = uint32_t(_settings.rouletteDepth);
+    record.pixelFilter = choiceIndex("hipr:pixelFilter", _settings.pixelFilter);
+    record.filterWidth = _settings.filterWidth;
+    record.fireflyClamp = _settings.fireflyClamp;
+    record.seed = uint32_t(_settings.seed);
+    _tracer.setup(record, *camera, _scene.hasNonOpaque());
+    _setupPending = false;
+    return true;
+}
+
+bool RendererImpl::renderBatch() {
+    return guarded([&] {
+        if (cancelled() || !setup()) return false;
+        // Compiling may take seconds; the host stays in charge meanwhile.
+        if (!_tracer.ready(std::chrono::milliseconds(50))) return true;
+        return _firstHitsDone < _film.pixels() ? renderFirstHits() : renderSamples();
+    });
+}
+
+bool RendererImpl::renderFirstHits() {
+    const auto start = std::chrono::steady_clock::now();
+    const uint32_t pixels = uint32_t(std::min<uint64_t>(_batch.paths(), _film.pixels() - _firstHitsDone));
+    if (!_tracer.findFirstHits(_scene.traversal(), uint32_t(_firstHitsDone), pixels, _cancel)) return false;
+    _firstHitsDone += pixels;
+    count(0, secondsSince(start));
+    return true;
+}
+
+bool RendererImpl::renderSamples() {
+    const auto start = std::chrono::steady_clock::now();
+    const uint32_t samples = uint32_t(_settings.samples);
+    const uint32_t wanted = _internals.batchPaths ? _internals.batchPaths : _batch.paths();
+    const std::vector<gpu::TileWork>& tiles = _schedule.next(wanted, samples);
+    const uint32_t paths = _schedule.pathCount();
+    if (!tiles.empty()) {
+        if (!_tracer.trace(_scene.traversal(), tiles, paths, _cancel)) return false;
+        _schedule.advance();
+        _batch.report(paths, secondsSince(start));
+    }
+    count(paths, secondsSince(start));
+    return _schedule.samplesDone() < samples;
+}
+
+void RendererImpl::count(uint32_t paths, double seconds) {
+    const gpu::TraceCounters counters = _tracer.takeCounters();
+    if (counters.nonFinite && !_nonFiniteReported) {
+        _nonFiniteReported = true;
+        _device->messages()(
+            Severity::Warning, "",
+            "some light paths came out as NaN or infinity and were dropped; a texture, primvar or light "
+            "probably holds such values");
+    }
+    std::lock_guard<std::mutex> lock(_progressMutex);
+    _progress.samplesDone = _schedule.samplesDone();
+    _progress.pathsTraced += paths;
+    _progress.nearestRays += counters.nearestRays + counters.transmitRays;
+    _progress.shadowRays += counters.shadowRays;
+    _progress.raysTraced = _progress.nearestRays + _progress.shadowRays;
+    _progress.seconds += seconds;
+    _progress.converged = _progress.samplesDone >= _progress.samplesTotal;
+}
+
+Progress RendererImpl::progress() const {
+    std::lock_guard<std::mutex> lock(_progressMutex);
+    return _progress;
+}
+
+bool RendererImpl::readAov(const AovRequest& aov, void* dst, size_t words) {
+    return guarded([&] { return _film.read(aov, dst, words); });
+}
+
+MemoryReport RendererImpl::memory() const {
+    MemoryReport report = _device->memory();
+    report.rows.push_back({"Host: meshes", _scene.meshHostBytes()});
+    report.rows.push_back({"Host: acceleration structures", _scene.traversalHostBytes()});
+    return report;
+}
+
+std::unique_ptr<RendererImpl> createRenderer(const RendererOptions& options,
+                                             const RendererInternals& internals, std::string* error) {
+    RendererOptions complete = options;
+    if (!complete.messages) complete.messages = printMessage;
+    if (!complete.assets) complete.assets = readFile;
+    try {
+        std::unique_ptr<Device> device = Device::create(complete, error);
+        if (!device) return nullptr;
+        return std::make_unique<RendererImpl>(std::move(device), complete, internals);
+    } catch (const std::exception& e) {
+        if (error) *error = e.what();
+        return nullptr;
+    }
+}
+
+std::unique_ptr<Renderer> Renderer::create(const RendererOptions& options, std::string* error) {
+    return createRenderer(options, {}, error);
+}
+
+} // namespace hipr

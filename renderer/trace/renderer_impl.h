@@ -1,0 +1,68 @@
+/// @file renderer_impl.h
+/// The Renderer: scene, film, schedule and path tracer put together.
+#pragma once
+
+#include <mutex>
+
+#include "renderer/api/renderer.h"
+#include "renderer/scene/gpu_scene.h"
+#include "renderer/trace/batch_size.h"
+#include "renderer/trace/film.h"
+#include "renderer/trace/path_tracer.h"
+#include "renderer/trace/schedule.h"
+
+namespace hipr {
+
+/// What tests vary to show that it makes no difference, and see to judge the device.
+struct RendererInternals {
+    uint32_t tileSize = UniformSchedule::DefaultTileSize;
+    uint32_t batchPaths = 0; ///< exact size of every batch; 0: steered by time
+};
+
+class RendererImpl : public Renderer {
+public:
+    RendererImpl(std::unique_ptr<Device> device, const RendererOptions& options,
+                 const RendererInternals& internals);
+
+    const DeviceInfo& device() const override { return _device->info(); }
+    ChangedSet commit(SceneEdit& edit) override;
+    void setFilm(const FilmDesc& film) override;
+    void setSettings(const Settings& settings) override;
+    bool renderBatch() override;
+    Progress progress() const override;
+    bool readAov(const AovRequest& aov, void* dst, size_t words) override;
+    MemoryReport memory() const override;
+
+    uint64_t validationErrors() const { return _device->validationErrors(); }
+    const Settings& settings() const { return _settings; }
+
+private:
+    template <class F> bool guarded(F&& work);
+    void fail(const std::string& reason);
+    void restart();
+    bool setup();
+    void selectTraversal();
+    bool renderFirstHits();
+    bool renderSamples();
+    void count(uint32_t paths, double seconds);
+
+    std::unique_ptr<Device> _device; ///< outlives everything below
+    RendererInternals _internals;
+    Settings _settings;
+    std::string _traversalInUse;
+    GpuScene _scene;
+    FilmBuffers _film;
+    UniformSchedule _schedule;
+    PathTracer _tracer;
+    BatchSize _batch;
+    bool _failed = false, _setupPending = true, _nonFiniteReported = false, _cameraReported = false;
+    uint64_t _firstHitsDone = 0; ///< pixels
+    mutable std::mutex _progressMutex;
+    Progress _progress;
+};
+
+/// Renderer::create() for tests.
+std::unique_ptr<RendererImpl> createRenderer(const RendererOptions& options,
+                                             const RendererInternals& internals, std::string* error);
+
+} // namespace hipr

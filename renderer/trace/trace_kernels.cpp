@@ -1,0 +1,23 @@
+#include "renderer/trace/trace_kernels.h"
+
+#include "hipr_trace_kernels.h"
+#include "shaders/shared/trace.h"
+
+namespace hipr {
+
+std::vector<KernelSource> traceKernelSources() {
+    constexpr uint32_t push = sizeof(gpu::TraceKernelPush);
+    using namespace spirv;
+    return {
+        {shade_spv, shade_spv_size, push, "shade"},
+        {visibility_spv, visibility_spv_size, push, "visibility"},
+        {transmit_spv, transmit_spv_size, push, "transmit"},
+        {raygen_spv, raygen_spv_size, push, "raygen"},
+        {resolve_spv, resolve_spv_size, push, "resolve"},
+        {shadow_spv, shadow_spv_size, push, "shadow"},
+        {visibility_rays_spv, visibility_rays_spv_size, push, "visibility_rays"},
+        {prepare_spv, prepare_spv_size, push, "prepare"},
+    };
+}
+
+} // namespace hipr

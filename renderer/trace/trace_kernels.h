@@ -1,0 +1,17 @@
+/// @file trace_kernels.h
+/// The wavefront kernels by name.
+#pragma once
+
+#include <vector>
+
+#include "renderer/vulkan/background_kernels.h"
+
+namespace hipr {
+
+/// In the order in which they compile, the longest first.
+enum class KernelId { Shade, Visibility, Transmit, Raygen, Resolve, Shadow, VisibilityRays, Prepare };
+
+/// The sources of all of them, indexed by KernelId.
+std::vector<KernelSource> traceKernelSources();
+
+} // namespace hipr

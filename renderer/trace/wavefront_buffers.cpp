@@ -1,0 +1,62 @@
+#include "renderer/trace/wavefront_buffers.h"
+
+namespace hipr {
+
+WavefrontBuffers::WavefrontBuffers(Device& device, uint32_t capacity) : capacity(capacity) {
+    const auto make = [&](uint64_t count, size_t stride) {
+        return device.createBuffer(count * stride, MemoryUse::Device, "Path queues");
+    };
+    headers = make(gpu::QUEUE_COUNT, sizeof(gpu::QueueHeader));
+    counters = make(1, sizeof(gpu::TraceCounters));
+    tiles = make(capacity, sizeof(gpu::TileWork)); // a tile has one path at least
+    paths = make(capacity, sizeof(gpu::PathState));
+    hits = make(capacity, sizeof(gpu::Hit));
+    shadowRays = make(capacity, sizeof(gpu::Ray));
+    shadowWork = make(capacity, sizeof(gpu::ShadowWork));
+    shadowResults = make(capacity, sizeof(uint32_t));
+    transmitHits = make(capacity, sizeof(gpu::Hit));
+    for (int i = 0; i < 2; ++i) {
+        rays[i] = make(capacity, sizeof(gpu::Ray));
+        raySlots[i] = make(capacity, sizeof(uint32_t));
+        transmitRays[i] = make(capacity, sizeof(gpu::Ray));
+        transmitWork[i] = make(capacity, sizeof(gpu::ShadowWork));
+    }
+    const gpu::QueueHeader empty[gpu::QUEUE_COUNT] = {};
+    device.upload(headers, empty, sizeof(empty));
+    const gpu::TraceCounters zero{};
+    device.upload(counters, &zero, sizeof(zero));
+}
+
+void WavefrontBuffers::describe(gpu::TraceRecord& record) const {
+    record.tiles = tiles.address();
+    record.headers = headers.address();
+    record.counters = counters.address();
+    record.paths = paths.address();
+    record.hits = hits.address();
+    record.shadowRays = shadowRays.address();
+    record.shadowWork = shadowWork.address();
+    record.shadowResults = shadowResults.address();
+    record.transmitHits = transmitHits.address();
+    for (int i = 0; i < 2; ++i) {
+        record.rays[i] = rays[i].address();
+        record.raySlots[i] = raySlots[i].address();
+        record.transmitRays[i] = transmitRays[i].address();
+        record.transmitWork[i] = transmitWork[i].address();
+    }
+}
+
+TraceQueue WavefrontBuffers::rayQueue(uint32_t turn) const {
+    return {&headers, headerOffset(gpu::QUEUE_RAYS + turn), &rays[turn], &hits, gpu::RAY_MASK_ALL};
+}
+
+TraceQueue WavefrontBuffers::shadowQueue(uint32_t turn) const {
+    return {&headers, headerOffset(gpu::QUEUE_SHADOW + turn), &shadowRays, &shadowResults,
+            gpu::RAY_MASK_OPAQUE};
+}
+
+TraceQueue WavefrontBuffers::transmitQueue(uint32_t turn) const {
+    return {&headers, headerOffset(gpu::QUEUE_TRANSMIT + turn), &transmitRays[turn], &transmitHits,
+            gpu::RAY_MASK_NON_OPAQUE};
+}
+
+} // namespace hipr

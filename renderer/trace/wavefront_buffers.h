@@ -1,0 +1,27 @@
+/// @file wavefront_buffers.h
+/// Queues and path states of one batch.
+#pragma once
+
+#include "renderer/accel/traversal.h"
+#include "shaders/shared/trace.h"
+
+namespace hipr {
+
+/// About 330 bytes a path.
+struct WavefrontBuffers {
+    WavefrontBuffers(Device& device, uint32_t capacity);
+
+    /// Fills the addresses of TraceRecord.
+    void describe(gpu::TraceRecord& record) const;
+
+    TraceQueue rayQueue(uint32_t turn) const;
+    TraceQueue shadowQueue(uint32_t turn) const;
+    TraceQueue transmitQueue(uint32_t turn) const;
+    static uint64_t headerOffset(uint32_t queue) { return queue * sizeof(gpu::QueueHeader); }
+
+    const uint32_t capacity; ///< paths
+    Buffer headers, counters, tiles, paths, hits, shadowRays, shadowWork, shadowResults, transmitHits;
+    Buffer rays[2], raySlots[2], transmitRays[2], transmitWork[2];
+};
+
+} // namespace hipr
