@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
+#include <stdexcept>
+#include <string>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -124,8 +125,7 @@ public:
     std::vector<gpu::BvhNode> run(Box* bounds) {
         const Extents e = extents(0, _items.size());
         *bounds = e.boxes;
-        const uint32_t depth = std::max(_options.maxDepth, levelsFor(_items.size(), _options.maxLeaf));
-        const uint32_t root = build(0, _items.size(), 0, depth, e);
+        const uint32_t root = build(0, _items.size(), 0, _options.maxDepth, e);
         if (root & gpu::BVH_LEAF) setRootLeaf(root, e.boxes);
         return compact(root & gpu::BVH_LEAF ? 0 : root);
     }
@@ -228,7 +228,7 @@ private:
     /// nodes, so subtrees own disjoint slots without talking to each other.
     uint32_t build(size_t first, size_t last, size_t slot, uint32_t depthLeft, const Extents& e) {
         const size_t count = last - first;
-        if (count <= 1 || (_options.fillLeaves && count <= _options.maxLeaf)) return leaf(first, last);
+        if (count <= 1 || (count <= _options.maxLeaf && depthLeft == 0)) return leaf(first, last);
         const size_t middle = partition(first, last, depthLeft, e);
         if (middle == last) return leaf(first, last);
         gpu::BvhNode& node = _nodes[slot];
@@ -287,7 +287,7 @@ private:
 float childCost(uint32_t child, const Bounds& box, const BvhOptions& options) {
     if (!(child & gpu::BVH_LEAF)) return options.nodeCost * box.halfArea();
     const uint32_t count = child >> gpu::BVH_COUNT_SHIFT & gpu::BVH_COUNT_MASK;
-    return box.halfArea() * float(options.fillLeaves ? (count ? 1 : 0) : count);
+    return box.halfArea() * float(count);
 }
 
 float treeCost(const Bvh& bvh, const BvhOptions& options) {
@@ -303,6 +303,8 @@ float treeCost(const Bvh& bvh, const BvhOptions& options) {
 } // namespace
 
 Bvh buildBvh(const std::vector<Bounds>& boxes, const BvhOptions& options) {
+    if (boxes.size() > gpu::BVH_FIRST_MASK || levelsFor(boxes.size(), options.maxLeaf) > options.maxDepth)
+        throw std::runtime_error(std::to_string(boxes.size()) + " primitives are too many for one tree");
     std::vector<Item> items(boxes.size());
     tbb::parallel_for(tbb::blocked_range<size_t>(0, boxes.size(), 16384), [&](const auto& r) {
         for (size_t i = r.begin(); i < r.end(); ++i)

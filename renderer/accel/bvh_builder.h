@@ -11,12 +11,12 @@
 namespace hipr {
 
 struct BvhOptions {
-    uint32_t maxLeaf = 4; ///< primitives per leaf, 1..15
-    uint32_t maxDepth =
-        gpu::BVH_MAX_TRIANGLE_DEPTH; ///< inner nodes from the root to a leaf; grown if the count needs it
-    float nodeCost = 1.0f;           ///< visiting a node, in units of one primitive test
-    bool fillLeaves =
-        false; ///< never split maxLeaf or fewer primitives (for leaves tested as one SIMD block)
+    /// Primitives per leaf, 1..15.
+    uint32_t maxLeaf = 4;
+    /// Inner nodes from the root to a leaf.
+    uint32_t maxDepth = gpu::BVH_MAX_TRIANGLE_DEPTH;
+    /// Visiting a node, in units of one primitive test.
+    float nodeCost = 1.0f;
 };
 
 /// A tree over primitives 0..n-1. nodes[0] is the root, children come after their parents.
@@ -29,7 +29,8 @@ struct Bvh {
 
 /// Builds from the primitives' boxes (finite). Deterministic, whatever the number of threads. Top-down, 16
 /// bins an axis (Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", RT 2007); degenerate
-/// inputs fall back to halving, which also keeps the depth within the limit. At most 2^27 primitives.
+/// inputs fall back to halving, which also keeps the depth within the limit. Throws std::runtime_error above
+/// maxLeaf * 2^maxDepth or 2^27 primitives.
 Bvh buildBvh(const std::vector<Bounds>& boxes, const BvhOptions& options);
 
 /// Recomputes all boxes and the cost for new primitive boxes, keeping the tree.

@@ -6,18 +6,11 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/accel/denormals.h"
+#include "renderer/accel/geometry_bounds.h"
 #include "shaders/shared/intersect.h"
 
 namespace hipr {
 namespace {
-
-Bounds geometryBounds(const GeometryView& v) {
-    Bounds b;
-    for (uint32_t i = 0; i < v.triangleCount; ++i)
-        for (int k = 0; k < 3; ++k)
-            b.add(v.positions[v.triangles[i][k]]);
-    return b;
-}
 
 bool countMemory(void* counter, ssize_t bytes, bool) {
     static_cast<std::atomic<int64_t>*>(counter)->fetch_add(bytes, std::memory_order_relaxed);
