@@ -1,0 +1,76 @@
+#include "plugin/hdHipr/aov.h"
+
+#include <unordered_map>
+
+#include "pxr/base/gf/vec3f.h"
+#include "pxr/base/gf/vec4f.h"
+#include "pxr/imaging/hd/tokens.h"
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+namespace hdhipr {
+
+using hipr::AovKind;
+
+std::optional<hipr::AovRequest> aovRequest(TfToken const& name) {
+    static const std::unordered_map<TfToken, AovKind, TfToken::HashFunctor> kinds = {
+        {HdAovTokens->color, AovKind::Color},
+        {HdAovTokens->depth, AovKind::Depth},
+        {HdAovTokens->cameraDepth, AovKind::CameraDepth},
+        {HdAovTokens->normal, AovKind::Normal},
+        {HdAovTokens->Neye, AovKind::Neye},
+        {HdAovTokens->primId, AovKind::PrimId},
+        {HdAovTokens->instanceId, AovKind::InstanceId},
+        {HdAovTokens->elementId, AovKind::ElementId},
+        {TfToken("albedo"), AovKind::Albedo},
+        {TfToken("sampleCount"), AovKind::SampleCount},
+    };
+    const auto found = kinds.find(name);
+    if (found != kinds.end()) {
+        return hipr::AovRequest{found->second, {}};
+    }
+    const HdParsedAovToken parsed(name);
+    if (parsed.isPrimvar) {
+        return hipr::AovRequest{AovKind::Primvar, parsed.name.GetString()};
+    }
+    return std::nullopt;
+}
+
+HdAovDescriptor aovDescriptor(TfToken const& name) {
+    const std::optional<hipr::AovRequest> request = aovRequest(name);
+    if (!request) {
+        if (name == HdAovTokens->edgeId || name == HdAovTokens->pointId) {
+            return HdAovDescriptor(HdFormatInt32, false, VtValue(-1)); // nothing can be picked
+        }
+        return HdAovDescriptor(HdFormatFloat32Vec4, false, VtValue(GfVec4f(0.f)));
+    }
+    switch (request->kind) {
+    case AovKind::Color:
+        return HdAovDescriptor(HdFormatFloat32Vec4, true, VtValue(GfVec4f(0.f)));
+    case AovKind::Depth:
+        return HdAovDescriptor(HdFormatFloat32, false, VtValue(1.f));
+    case AovKind::CameraDepth:
+        return HdAovDescriptor(HdFormatFloat32, false, VtValue(0.f));
+    case AovKind::PrimId:
+    case AovKind::InstanceId:
+    case AovKind::ElementId:
+        return HdAovDescriptor(HdFormatInt32, false, VtValue(-1));
+    case AovKind::SampleCount:
+        return HdAovDescriptor(HdFormatInt32, false, VtValue(0));
+    case AovKind::Albedo:
+        return HdAovDescriptor(HdFormatFloat32Vec3, true, VtValue(GfVec3f(0.f)));
+    case AovKind::Normal:
+    case AovKind::Neye:
+    case AovKind::Primvar:
+        break;
+    }
+    return HdAovDescriptor(HdFormatFloat32Vec3, false, VtValue(GfVec3f(0.f)));
+}
+
+bool changesWithSamples(AovKind kind) {
+    return kind == AovKind::Color || kind == AovKind::Albedo || kind == AovKind::SampleCount;
+}
+
+} // namespace hdhipr
+
+PXR_NAMESPACE_CLOSE_SCOPE

@@ -1,0 +1,27 @@
+/// @file aov.h
+/// Hydra's AOV names <-> the renderer's AOVs.
+#pragma once
+
+#include <optional>
+
+#include "pxr/base/vt/value.h"
+#include "pxr/imaging/hd/aov.h"
+#include "pxr/pxr.h"
+#include "renderer/api/film.h"
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+namespace hdhipr {
+
+/// The renderer's AOV of that name, or nothing for a name HiPR does not know (lpe:*, shader:*, edgeId...).
+std::optional<hipr::AovRequest> aovRequest(TfToken const& name);
+
+/// The preferred format and clear value of an AOV. Unknown names get a usable descriptor as well.
+HdAovDescriptor aovDescriptor(TfToken const& name);
+
+/// First-hit AOVs are final after the first sample; means go on changing until the picture has converged.
+bool changesWithSamples(hipr::AovKind kind);
+
+} // namespace hdhipr
+
+PXR_NAMESPACE_CLOSE_SCOPE

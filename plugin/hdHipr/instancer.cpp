@@ -1,0 +1,235 @@
+#include "plugin/hdHipr/instancer.h"
+
+#include <algorithm>
+
+#include "plugin/hdHipr/messages.h"
+#include "plugin/hdHipr/primvars.h"
+#include "pxr/base/gf/matrix4f.h"
+#include "pxr/base/gf/quatd.h"
+#include "pxr/base/gf/quatf.h"
+#include "pxr/base/gf/quath.h"
+#include "pxr/base/gf/rotation.h"
+#include "pxr/base/gf/vec3d.h"
+#include "pxr/base/gf/vec3f.h"
+#include "pxr/base/gf/vec3h.h"
+#include "pxr/base/gf/vec4f.h"
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+using namespace hdhipr;
+
+namespace {
+
+GfMatrix4d translation(GfVec3d const& t) {
+    return GfMatrix4d(1.0).SetTranslate(t);
+}
+GfMatrix4d scaling(GfVec3d const& s) {
+    return GfMatrix4d(1.0).SetScale(s);
+}
+
+/// A quaternion of any length as a rotation; the zero quaternion does not rotate.
+GfMatrix4d rotation(double real, GfVec3d const& imaginary) {
+    GfQuatd q(real, imaginary);
+    return q.GetLength() > 0.0 ? GfMatrix4d(1.0).SetRotate(q.GetNormalized()) : GfMatrix4d(1.0);
+}
+
+template <class Q> GfMatrix4d rotationOf(Q const& q) {
+    return rotation(double(q.GetReal()), GfVec3d(q.GetImaginary()));
+}
+/// Before quaternion types, Hydra sent (real, i, j, k).
+GfMatrix4d rotationOf(GfVec4f const& q) {
+    return rotation(q[0], GfVec3d(q[1], q[2], q[3]));
+}
+
+/// Multiplies element indices[i] of the array in `value`, made a matrix by `toMatrix`, in front of
+/// transforms[i]. Returns false when the value does not hold an array of T or is too short for an index.
+template <class T, class ToMatrix>
+bool apply(VtValue const& value, VtIntArray const& indices, std::vector<GfMatrix4d>& transforms,
+           bool* complete, ToMatrix toMatrix) {
+    if (!value.IsHolding<VtArray<T>>()) {
+        return false;
+    }
+    VtArray<T> const& array = value.UncheckedGet<VtArray<T>>();
+    for (size_t i = 0; i < indices.size(); ++i) {
+        const int index = indices.cdata()[i];
+        if (index < 0 || size_t(index) >= array.size()) {
+            *complete = false;
+            continue;
+        }
+        transforms[i] = toMatrix(array.cdata()[index]) * transforms[i];
+    }
+    return true;
+}
+
+enum class Part { Translate, Rotate, Scale, Transform };
+
+bool applyPart(Part part, VtValue const& value, VtIntArray const& indices,
+               std::vector<GfMatrix4d>& transforms, bool* complete) {
+    const auto translate = [](auto const& v) { return translation(GfVec3d(v)); };
+    const auto scale = [](auto const& v) { return scaling(GfVec3d(v)); };
+    const auto rotate = [](auto const& v) { return rotationOf(v); };
+    const auto matrix = [](auto const& v) { return GfMatrix4d(v); };
+    switch (part) {
+    case Part::Translate:
+        return apply<GfVec3f>(value, indices, transforms, complete, translate) ||
+               apply<GfVec3d>(value, indices, transforms, complete, translate) ||
+               apply<GfVec3h>(value, indices, transforms, complete, translate);
+    case Part::Scale:
+        return apply<GfVec3f>(value, indices, transforms, complete, scale) ||
+               apply<GfVec3d>(value, indices, transforms, complete, scale) ||
+               apply<GfVec3h>(value, indices, transforms, complete, scale);
+    case Part::Rotate:
+        return apply<GfVec4f>(value, indices, transforms, complete, rotate) ||
+               apply<GfQuath>(value, indices, transforms, complete, rotate) ||
+               apply<GfQuatf>(value, indices, transforms, complete, rotate) ||
+               apply<GfQuatd>(value, indices, transforms, complete, rotate);
+    case Part::Transform:
+        break;
+    }
+    return apply<GfMatrix4d>(value, indices, transforms, complete, matrix) ||
+           apply<GfMatrix4f>(value, indices, transforms, complete, matrix);
+}
+
+/// The order in which Hydra defines an instance's transform: each next one is applied to the object first.
+/// Two names each, because they changed.
+struct PartName {
+    Part part;
+    const char *name, *newName;
+};
+constexpr PartName partNames[] = {
+    {Part::Translate, "translate", "hydra:instanceTranslations"},
+    {Part::Rotate, "rotate", "hydra:instanceRotations"},
+    {Part::Scale, "scale", "hydra:instanceScales"},
+    {Part::Transform, "instanceTransform", "hydra:instanceTransforms"},
+};
+
+bool isPart(TfToken const& name) {
+    return std::any_of(std::begin(partNames), std::end(partNames),
+                       [&](PartName const& part) { return name == part.name || name == part.newName; });
+}
+
+/// Repeats each value `times` times in place (outer level) or the whole list `times` times (inner level).
+std::vector<float> repeated(std::vector<float> const& values, uint32_t components, size_t times, bool each) {
+    std::vector<float> out;
+    out.reserve(values.size() * times);
+    const size_t run = each ? components : values.size();
+    for (size_t at = 0; at < values.size(); at += run) {
+        for (size_t t = 0; t < times; ++t) {
+            out.insert(out.end(), values.begin() + long(at), values.begin() + long(at + run));
+        }
+    }
+    return out;
+}
+
+} // namespace
+
+void HdHiprInstancer::syncPrimvars(HdDirtyBits dirtyBits) {
+    std::map<TfToken, VtValue> primvars;
+    for (HdPrimvarDescriptor const& pv :
+         GetDelegate()->GetPrimvarDescriptors(GetId(), HdInterpolationInstance)) {
+        const auto old = _primvars.find(pv.name);
+        if (old == _primvars.end() || HdChangeTracker::IsPrimvarDirty(dirtyBits, GetId(), pv.name)) {
+            primvars[pv.name] = GetDelegate()->Get(GetId(), pv.name);
+        } else {
+            primvars[pv.name] = old->second;
+        }
+    }
+    _primvars = std::move(primvars);
+}
+
+std::vector<GfMatrix4d> HdHiprInstancer::localTransforms(VtIntArray const& indices,
+                                                         GfMatrix4d const& instancerTransform) const {
+    std::vector<GfMatrix4d> transforms(indices.size(), instancerTransform);
+    for (PartName const& part : partNames) {
+        for (const char* name : {part.name, part.newName}) {
+            const auto found = _primvars.find(TfToken(name));
+            if (found == _primvars.end() || found->second.IsEmpty()) {
+                continue;
+            }
+            bool complete = true;
+            if (!applyPart(part.part, found->second, indices, transforms, &complete)) {
+                warnOnce(GetId().GetString(), "instance primvar '" + std::string(name) +
+                                                  "' has the unsupported type " +
+                                                  found->second.GetTypeName());
+            } else if (!complete) {
+                warnOnce(GetId().GetString(), "instance primvar '" + std::string(name) +
+                                                  "' has fewer values than there are instances");
+            }
+        }
+    }
+    return transforms;
+}
+
+std::vector<hipr::Primvar> HdHiprInstancer::localPrimvars(VtIntArray const& indices) const {
+    std::vector<hipr::Primvar> result;
+    for (auto const& [name, value] : _primvars) {
+        if (isPart(name)) {
+            continue;
+        }
+        const std::optional<hipr::Primvar> all = toPrimvar(name, value);
+        if (!all) {
+            continue;
+        }
+        hipr::Primvar picked;
+        picked.name = all->name;
+        picked.components = all->components;
+        picked.values.reserve(indices.size() * all->components);
+        const size_t count = all->values.size() / all->components;
+        bool complete = true;
+        for (size_t i = 0; i < indices.size(); ++i) {
+            const size_t index = size_t(indices.cdata()[i]);
+            complete = complete && index < count;
+            const size_t from = (index < count ? index : count - 1) * all->components;
+            picked.values.insert(picked.values.end(), all->values.begin() + long(from),
+                                 all->values.begin() + long(from + all->components));
+        }
+        if (complete) {
+            result.push_back(std::move(picked));
+        } else {
+            warnOnce(GetId().GetString(), "instance primvar '" + name.GetString() +
+                                              "' has fewer values than there are instances; it is ignored");
+        }
+    }
+    return result;
+}
+
+HdHiprInstancer::Instances HdHiprInstancer::instances(SdfPath const& prototypeId) {
+    ensureSynced();
+    const VtIntArray indices = GetDelegate()->GetInstanceIndices(GetId(), prototypeId);
+    Instances local{localTransforms(indices, GetDelegate()->GetInstancerTransform(GetId())),
+                    localPrimvars(indices)};
+    if (GetParentId().IsEmpty()) {
+        return local;
+    }
+
+    HdInstancer* parent = GetDelegate()->GetRenderIndex().GetInstancer(GetParentId());
+    if (!parent) {
+        warnOnce(GetId().GetString(),
+                 "the parent instancer <" + GetParentId().GetString() + "> does not exist");
+        return local;
+    }
+    const Instances outer = static_cast<HdHiprInstancer*>(parent)->instances(GetId());
+    Instances all;
+    all.transforms.reserve(outer.transforms.size() * local.transforms.size());
+    for (GfMatrix4d const& outerTransform : outer.transforms) {
+        for (GfMatrix4d const& transform : local.transforms) {
+            all.transforms.push_back(transform * outerTransform);
+        }
+    }
+    for (hipr::Primvar& pv : local.primvars) {
+        pv.values = repeated(pv.values, pv.components, outer.transforms.size(), false);
+        all.primvars.push_back(std::move(pv));
+    }
+    for (hipr::Primvar const& pv : outer.primvars) {
+        const bool hidden = std::any_of(all.primvars.begin(), all.primvars.end(),
+                                        [&](hipr::Primvar const& inner) { return inner.name == pv.name; });
+        if (hidden) {
+            continue;
+        }
+        all.primvars.push_back(pv);
+        all.primvars.back().values = repeated(pv.values, pv.components, local.transforms.size(), true);
+    }
+    return all;
+}
+
+PXR_NAMESPACE_CLOSE_SCOPE

@@ -1,0 +1,36 @@
+/// @file instancer.h
+/// HdHiprInstancer: where the instances of a prototype are, and their primvars. Geometry is never copied.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "plugin/hdHipr/compat.h"
+#include "renderer/api/types.h"
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+class HdHiprInstancer final : public hdhipr::InstancerBase {
+public:
+    using InstancerBase::InstancerBase;
+
+    /// All instances of a prototype through all levels of nesting. Instance i of the outermost level and j of
+    /// this one has index i * (instances of this level) + j: the flat index that Hydra's picking decodes.
+    struct Instances {
+        std::vector<GfMatrix4d> transforms;  ///< prototype space to world, Gf convention
+        std::vector<hipr::Primvar> primvars; ///< one value per instance; inner levels win over outer ones
+    };
+    Instances instances(SdfPath const& prototypeId);
+
+protected:
+    void syncPrimvars(HdDirtyBits dirtyBits) override;
+
+private:
+    std::vector<GfMatrix4d> localTransforms(VtIntArray const& indices,
+                                            GfMatrix4d const& instancerTransform) const;
+    std::vector<hipr::Primvar> localPrimvars(VtIntArray const& indices) const;
+
+    std::map<TfToken, VtValue> _primvars;
+};
+
+PXR_NAMESPACE_CLOSE_SCOPE

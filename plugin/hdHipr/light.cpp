@@ -1,0 +1,134 @@
+#include "plugin/hdHipr/light.h"
+
+#include <optional>
+#include <unordered_map>
+
+#include "plugin/hdHipr/assets.h"
+#include "plugin/hdHipr/convert.h"
+#include "plugin/hdHipr/messages.h"
+#include "plugin/hdHipr/renderParam.h"
+#include "pxr/imaging/hd/tokens.h"
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+using namespace hdhipr;
+
+namespace {
+
+std::optional<hipr::LightKind> lightKind(TfToken const& type) {
+    static const std::unordered_map<TfToken, hipr::LightKind, TfToken::HashFunctor> kinds = {
+        {HdPrimTypeTokens->domeLight, hipr::LightKind::Dome},
+        {HdPrimTypeTokens->distantLight, hipr::LightKind::Distant},
+        {HdPrimTypeTokens->rectLight, hipr::LightKind::Rect},
+        {HdPrimTypeTokens->sphereLight, hipr::LightKind::Sphere},
+        {HdPrimTypeTokens->diskLight, hipr::LightKind::Disk},
+        {HdPrimTypeTokens->cylinderLight, hipr::LightKind::Cylinder},
+    };
+    const auto found = kinds.find(type);
+    return found == kinds.end() ? std::nullopt : std::optional(found->second);
+}
+
+/// Reads parameters of one light; an absent one, or one of a type that cannot be cast, keeps the default.
+struct Params {
+    HdSceneDelegate* delegate;
+    SdfPath const& id;
+
+    template <class T> T get(const char* name, T const& fallback) const {
+        const VtValue value = VtValue::Cast<T>(lightParam(delegate, id, TfToken(name)));
+        return value.IsHolding<T>() ? value.template UncheckedGet<T>() : fallback;
+    }
+};
+
+} // namespace
+
+bool HdHiprLight::handles(TfToken const& type) {
+    return lightKind(type).has_value();
+}
+
+HdHiprLight::HdHiprLight(SdfPath const& id, TfToken const& type) : HdLight(id) {
+    _desc.name = id.GetString();
+    _desc.kind = lightKind(type).value_or(hipr::LightKind::Sphere);
+}
+
+void HdHiprLight::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdDirtyBits* dirtyBits) {
+    auto& param = static_cast<HdHiprRenderParam&>(*renderParam);
+    if (*dirtyBits & DirtyTransform) {
+        _desc.transform = toGlm(lightTransform(delegate, GetId()));
+    }
+    if (*dirtyBits & (DirtyParams | DirtyShadowParams | DirtyCollection)) {
+        syncParams(delegate);
+        reportUnsupported(delegate);
+    }
+    if (_light == hipr::LightId::None) {
+        _light = param.newId<hipr::LightId>();
+    }
+    param.edit().setLight(_light, _desc);
+    *dirtyBits = Clean;
+}
+
+void HdHiprLight::syncParams(HdSceneDelegate* delegate) {
+    const Params params{delegate, GetId()};
+    _desc.visible = lightVisible(delegate, GetId());
+    _desc.intensity = params.get("intensity", 1.f);
+    _desc.exposure = params.get("exposure", 0.f);
+    _desc.color = toGlm(params.get("color", GfVec3f(1.f)));
+    _desc.enableColorTemperature = params.get("enableColorTemperature", false);
+    _desc.colorTemperature = params.get("colorTemperature", 6500.f);
+    _desc.normalize = params.get("normalize", false);
+    _desc.diffuse = params.get("diffuse", 1.f);
+    _desc.specular = params.get("specular", 1.f);
+    _desc.radius = params.get("radius", 0.5f);
+    _desc.width = params.get("width", 1.f);
+    _desc.height = params.get("height", 1.f);
+    _desc.length = params.get("length", 1.f);
+    _desc.angle = params.get("angle", 0.53f);
+    _desc.texture.clear();
+    if (_desc.kind == hipr::LightKind::Dome || _desc.kind == hipr::LightKind::Rect) {
+        _desc.texture = assetPath(lightParam(delegate, GetId(), TfToken("texture:file")));
+    }
+}
+
+void HdHiprLight::reportUnsupported(HdSceneDelegate* delegate) const {
+    const Params params{delegate, GetId()};
+    const auto ignored = [&](const char* what) {
+        warnOnce(GetId().GetString(), std::string(what) + " is not supported and has no effect");
+    };
+    if (params.get("shaping:focus", 0.f) != 0.f) {
+        ignored("light shaping (shaping:focus)");
+    }
+    if (params.get("shaping:cone:angle", 90.f) < 90.f) {
+        ignored("light shaping (shaping:cone:angle)");
+    }
+    if (!assetPath(lightParam(delegate, GetId(), TfToken("shaping:ies:file"))).empty()) {
+        ignored("an IES profile (shaping:ies:file)");
+    }
+    if (!params.get("shadow:enable", true)) {
+        ignored("switching shadows off (shadow:enable)");
+    }
+    if (params.get("treatAsPoint", false)) {
+        ignored("treatAsPoint");
+    }
+    if (params.get("treatAsLine", false)) {
+        ignored("treatAsLine");
+    }
+    const TfToken format = params.get("texture:format", TfToken("automatic"));
+    if (_desc.kind == hipr::LightKind::Dome && format != "automatic" && format != "latlong") {
+        ignored("a dome texture that is not latitude-longitude (texture:format)");
+    }
+    for (const char* link : {"lightLink", "shadowLink"}) {
+        const VtValue id = delegate->GetLightParamValue(GetId(), TfToken(link));
+        if (id.IsHolding<TfToken>() && !id.UncheckedGet<TfToken>().IsEmpty()) {
+            ignored(link);
+        }
+    }
+}
+
+void HdHiprLight::Finalize(HdRenderParam* renderParam) {
+    if (_light == hipr::LightId::None) {
+        return;
+    }
+    static_cast<HdHiprRenderParam*>(renderParam)->edit().removeLight(_light);
+    _light = hipr::LightId::None;
+}
+
+PXR_NAMESPACE_CLOSE_SCOPE

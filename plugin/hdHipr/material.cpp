@@ -1,0 +1,33 @@
+#include "plugin/hdHipr/material.h"
+
+#include "plugin/hdHipr/materialNetwork.h"
+#include "plugin/hdHipr/renderParam.h"
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+void HdHiprMaterial::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdDirtyBits* dirtyBits) {
+    auto& param = static_cast<HdHiprRenderParam&>(*renderParam);
+    if (*dirtyBits & (DirtyResource | DirtyParams)) {
+        const VtValue resource = delegate->GetMaterialResource(GetId());
+        HdMaterialNetworkMap networks;
+        if (resource.IsHolding<HdMaterialNetworkMap>()) {
+            networks = resource.UncheckedGet<HdMaterialNetworkMap>();
+        }
+        const auto desc = hdhipr::materialDesc(GetId(), networks);
+        if (desc) {
+            param.edit().setMaterial(param.materialId(GetId()), *desc);
+        } else { // without a surface the mesh shows its displayColor
+            param.edit().removeMaterial(param.materialId(GetId()));
+        }
+    }
+    *dirtyBits = Clean;
+}
+
+void HdHiprMaterial::Finalize(HdRenderParam* renderParam) {
+    auto& param = static_cast<HdHiprRenderParam&>(*renderParam);
+    if (!GetId().IsEmpty()) {
+        param.edit().removeMaterial(param.materialId(GetId()));
+    }
+}
+
+PXR_NAMESPACE_CLOSE_SCOPE

@@ -1,0 +1,273 @@
+#include "plugin/hdHipr/mesh.h"
+
+#include <algorithm>
+
+#include "plugin/hdHipr/convert.h"
+#include "plugin/hdHipr/instancer.h"
+#include "plugin/hdHipr/messages.h"
+#include "plugin/hdHipr/primvars.h"
+#include "plugin/hdHipr/renderParam.h"
+#include "pxr/imaging/hd/extComputationUtils.h"
+#include "pxr/imaging/hd/tokens.h"
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+using namespace hdhipr;
+
+namespace {
+
+constexpr HdDirtyBits objectBits = HdChangeTracker::DirtyVisibility | HdChangeTracker::DirtyMaterialId |
+                                   HdChangeTracker::DirtyPrimID | HdChangeTracker::DirtyRenderTag |
+                                   HdChangeTracker::DirtyTopology;
+constexpr HdDirtyBits instanceBits =
+    HdChangeTracker::DirtyTransform | HdChangeTracker::DirtyInstancer | HdChangeTracker::DirtyInstanceIndex;
+constexpr HdDirtyBits styleBits =
+    HdChangeTracker::DirtyDisplayStyle | HdChangeTracker::DirtyRepr | HdChangeTracker::NewRepr;
+constexpr HdDirtyBits primvarBits = HdChangeTracker::DirtyPoints | HdChangeTracker::DirtyNormals |
+                                    HdChangeTracker::DirtyPrimvar |
+                                    HdChangeTracker::DirtyComputationPrimvarDesc;
+
+} // namespace
+
+HdHiprMesh::HdHiprMesh(SdfPath const& id, SdfPath const& instancerId, HdHiprRenderParam& param)
+    : MeshBase(id, instancerId), _geometry(param.newId<hipr::GeometryId>()),
+      _object(param.newId<hipr::ObjectId>()) {
+    _desc.name = id.GetString();
+}
+
+HdDirtyBits HdHiprMesh::GetInitialDirtyBitsMask() const {
+    return HdChangeTracker::InitRepr | objectBits | instanceBits | primvarBits |
+           HdChangeTracker::DirtyDisplayStyle | HdChangeTracker::DirtyRepr |
+           HdChangeTracker::DirtySubdivTags | HdChangeTracker::DirtyDoubleSided;
+}
+
+void HdHiprMesh::_InitRepr(TfToken const& reprToken, HdDirtyBits* dirtyBits) {
+    const auto known = std::find_if(_reprs.begin(), _reprs.end(), _ReprComparator(reprToken));
+    if (known != _reprs.end()) {
+        return;
+    }
+    _reprs.emplace_back(reprToken, HdReprSharedPtr());
+    *dirtyBits |= HdChangeTracker::NewRepr;
+}
+
+void HdHiprMesh::Finalize(HdRenderParam* renderParam) {
+    auto& param = static_cast<HdHiprRenderParam&>(*renderParam);
+    param.removeObject(_object);
+    param.edit().removeGeometry(_geometry);
+    HdMesh::Finalize(renderParam);
+}
+
+void HdHiprMesh::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdDirtyBits* dirtyBits,
+                      TfToken const& reprToken) {
+    auto& param = static_cast<HdHiprRenderParam&>(*renderParam);
+    syncInstancer(delegate, dirtyBits);
+    const HdDirtyBits bits = *dirtyBits;
+    if (bits & HdChangeTracker::DirtyVisibility) {
+        _UpdateVisibility(delegate, dirtyBits);
+    }
+    if (bits & HdChangeTracker::DirtyMaterialId) {
+        updateMaterialId(delegate, delegate->GetMaterialId(GetId()));
+    }
+
+    const Rebuild rebuild = std::max(syncTopology(delegate, bits, reprToken), syncPrimvars(delegate, bits));
+    if (rebuild != Rebuild::None) {
+        sendGeometry(rebuild, param);
+    }
+    if (bits & objectBits) {
+        sendObject(delegate, param);
+    }
+    if (bits & instanceBits) {
+        sendInstances(delegate, param);
+    }
+    *dirtyBits &= ~(HdChangeTracker::AllSceneDirtyBits | HdChangeTracker::NewRepr);
+}
+
+HdHiprMesh::Rebuild HdHiprMesh::syncTopology(HdSceneDelegate* delegate, HdDirtyBits bits,
+                                             TfToken const& reprToken) {
+    Rebuild rebuild = Rebuild::None;
+    if (bits & HdChangeTracker::DirtyTopology) {
+        const HdMeshTopology topology = GetMeshTopology(delegate);
+        setTopology(topology, _desc);
+        _subsetMaterials.clear();
+        for (HdGeomSubset const& subset : topology.GetGeomSubsets()) {
+            _subsetMaterials.push_back(subset.materialId);
+        }
+        rebuild = Rebuild::All;
+    }
+    if (bits & (HdChangeTracker::DirtyTopology | HdChangeTracker::DirtySubdivTags)) {
+        if (_desc.scheme != hipr::SubdivisionScheme::None) {
+            setSubdivTags(GetSubdivTags(delegate), _desc);
+        }
+        rebuild = Rebuild::All;
+    }
+    if (bits & HdChangeTracker::DirtyDoubleSided) {
+        const bool doubleSided = IsDoubleSided(delegate);
+        if (doubleSided != _desc.doubleSided) {
+            rebuild = Rebuild::All;
+        }
+        _desc.doubleSided = doubleSided;
+    }
+    if (bits & styleBits) {
+        const MeshStyle style = meshStyle(_GetReprDesc(reprToken)[0], GetDisplayStyle(delegate));
+        if (!(style == _style)) {
+            rebuild = Rebuild::All;
+        }
+        _style = style;
+    }
+    return rebuild;
+}
+
+HdHiprMesh::Rebuild HdHiprMesh::syncPrimvars(HdSceneDelegate* delegate, HdDirtyBits bits) {
+    Rebuild rebuild = Rebuild::None;
+    if (!(bits & primvarBits)) {
+        return rebuild;
+    }
+    TfTokenVector names;
+    syncComputedPrimvars(delegate, bits, &names, &rebuild);
+    const auto listed = [&names](TfToken const& name) {
+        return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    for (int i = 0; i < HdInterpolationCount; ++i) {
+        for (HdPrimvarDescriptor const& pv : GetPrimvarDescriptors(delegate, HdInterpolation(i))) {
+            if (listed(pv.name)) {
+                continue;
+            } // computed values win over authored ones
+            names.push_back(pv.name);
+            if (!HdChangeTracker::IsPrimvarDirty(bits, GetId(), pv.name)) {
+                continue;
+            }
+            VtIntArray indices;
+            const VtValue value = readPrimvar(delegate, pv.name, &indices);
+            rebuild = std::max(rebuild, setPrimvar(delegate, pv, value, indices));
+        }
+    }
+    if (!listed(HdTokens->points) && (bits & HdChangeTracker::DirtyPoints)) {
+        rebuild = std::max(rebuild, setPoints(GetPoints(delegate)));
+    }
+    const auto gone = std::remove_if(_desc.primvars.begin(), _desc.primvars.end(),
+                                     [&](hipr::Primvar const& pv) { return !listed(TfToken(pv.name)); });
+    if (gone != _desc.primvars.end()) {
+        rebuild = Rebuild::All;
+    }
+    _desc.primvars.erase(gone, _desc.primvars.end());
+    return rebuild;
+}
+
+bool HdHiprMesh::syncComputedPrimvars(HdSceneDelegate* delegate, HdDirtyBits bits, TfTokenVector* names,
+                                      Rebuild* rebuild) {
+    HdExtComputationPrimvarDescriptorVector dirty;
+    for (int i = 0; i < HdInterpolationCount; ++i) {
+        for (auto const& pv : delegate->GetExtComputationPrimvarDescriptors(GetId(), HdInterpolation(i))) {
+            names->push_back(pv.name);
+            const bool changed = HdChangeTracker::IsPrimvarDirty(bits, GetId(), pv.name) ||
+                                 (bits & HdChangeTracker::DirtyComputationPrimvarDesc);
+            if (changed) {
+                dirty.push_back(pv);
+            }
+        }
+    }
+    if (dirty.empty()) {
+        return false;
+    }
+    const auto values = HdExtComputationUtils::GetComputedPrimvarValues(dirty, delegate);
+    for (auto const& pv : dirty) {
+        const auto value = values.find(pv.name);
+        if (value == values.end()) {
+            warnOnce(GetId().GetString(),
+                     "the computation of primvar '" + pv.name.GetString() + "' gave no value");
+            continue;
+        }
+        *rebuild = std::max(*rebuild, setPrimvar(delegate, pv, value->second, VtIntArray()));
+    }
+    return true;
+}
+
+HdHiprMesh::Rebuild HdHiprMesh::setPoints(VtValue const& value) {
+    _desc.points = toPoints(value);
+    return Rebuild::Points;
+}
+
+HdHiprMesh::Rebuild HdHiprMesh::setPrimvar(HdSceneDelegate*, HdPrimvarDescriptor const& descriptor,
+                                           VtValue const& value, VtIntArray const& indices) {
+    if (descriptor.name == HdTokens->points) {
+        return setPoints(value);
+    }
+    const std::optional<hipr::Interpolation> interpolation = toInterpolation(descriptor.interpolation);
+    std::optional<hipr::Primvar> primvar = toPrimvar(descriptor.name, value);
+    auto& primvars = _desc.primvars;
+    const auto old = std::find_if(primvars.begin(), primvars.end(),
+                                  [&](hipr::Primvar const& pv) { return descriptor.name == pv.name; });
+    if (!primvar || !interpolation) {
+        if (old == primvars.end()) {
+            return Rebuild::None;
+        }
+        primvars.erase(old);
+        return Rebuild::All;
+    }
+    primvar->interpolation = *interpolation;
+    primvar->indices.assign(indices.cdata(), indices.cdata() + indices.size());
+    if (old == primvars.end()) {
+        primvars.push_back(std::move(*primvar));
+    } else if (samePrimvar(*old, *primvar)) {
+        return Rebuild::None;
+    } else {
+        *old = std::move(*primvar);
+    }
+    // Animated normals come with animated points; any other primvar is stored per triangle corner or vertex.
+    return descriptor.name == HdTokens->normals && old != primvars.end() ? Rebuild::Points : Rebuild::All;
+}
+
+void HdHiprMesh::sendGeometry(Rebuild rebuild, HdHiprRenderParam& param) {
+    const bool hasNormals = std::any_of(_desc.primvars.begin(), _desc.primvars.end(),
+                                        [](hipr::Primvar const& pv) { return HdTokens->normals == pv.name; });
+    const bool faceted =
+        _desc.scheme == hipr::SubdivisionScheme::None || _desc.scheme == hipr::SubdivisionScheme::Bilinear;
+    _desc.refineLevel = _style.refineLevel;
+    _desc.flatNormals = _style.flat || (faceted && !hasNormals);
+    const bool pointsOnly = rebuild == Rebuild::Points && _mesh && !_mesh->triangles.empty();
+    _mesh = pointsOnly ? hipr::updatePoints(*_mesh, _desc, report) : hipr::buildTriangleMesh(_desc, report);
+    param.edit().setGeometry(_geometry, _mesh);
+}
+
+void HdHiprMesh::sendObject(HdSceneDelegate* delegate, HdHiprRenderParam& param) {
+    ObjectState state;
+    state.path = GetId();
+    state.renderTag = delegate->GetRenderTag(GetId());
+    state.desc.name = _desc.name;
+    state.desc.geometry = _geometry;
+    state.desc.visible = IsVisible();
+    state.desc.primId = GetPrimId();
+    const hipr::MaterialId own = param.materialId(GetMaterialId());
+    state.desc.materials.push_back(own);
+    for (SdfPath const& path : _subsetMaterials) {
+        state.desc.materials.push_back(path.IsEmpty() ? own : param.materialId(path));
+    }
+    param.setObject(_object, state);
+}
+
+void HdHiprMesh::renderTagChanged(HdSceneDelegate* delegate, HdRenderParam* renderParam) {
+    if (_mesh) {
+        sendObject(delegate, static_cast<HdHiprRenderParam&>(*renderParam));
+    }
+}
+
+void HdHiprMesh::sendInstances(HdSceneDelegate* delegate, HdHiprRenderParam& param) {
+    const GfMatrix4d own = delegate->GetTransform(GetId());
+    hipr::InstancesDesc desc;
+    if (GetInstancerId().IsEmpty()) {
+        desc.transforms.push_back(toGlmAffine(own));
+    } else if (HdInstancer* instancer = delegate->GetRenderIndex().GetInstancer(GetInstancerId())) {
+        HdHiprInstancer::Instances instances = static_cast<HdHiprInstancer*>(instancer)->instances(GetId());
+        desc.transforms.reserve(instances.transforms.size());
+        for (GfMatrix4d const& transform : instances.transforms) {
+            desc.transforms.push_back(toGlmAffine(own * transform));
+        }
+        desc.primvars = std::move(instances.primvars);
+    } else {
+        warnOnce(GetId().GetString(), "its instancer <" + GetInstancerId().GetString() +
+                                          "> does not exist; the mesh is not drawn");
+    }
+    param.edit().setInstances(_object, std::move(desc));
+}
+
+PXR_NAMESPACE_CLOSE_SCOPE

@@ -1,0 +1,56 @@
+/// @file mesh.h
+/// HdHiprMesh: one polygon mesh and all its instances.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "plugin/hdHipr/compat.h"
+#include "plugin/hdHipr/meshTopology.h"
+#include "renderer/api/scene.h"
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+class HdHiprRenderParam;
+
+/// Sync turns dirty bits into the smallest edit: a moved mesh sends transforms, a deformed one new points, a
+/// rebound one materials; only changed topology, subdivision or primvars build the triangles again (on the
+/// Sync thread).
+class HdHiprMesh final : public hdhipr::MeshBase {
+public:
+    HdHiprMesh(SdfPath const& id, SdfPath const& instancerId, HdHiprRenderParam& param);
+
+    HdDirtyBits GetInitialDirtyBitsMask() const override;
+    void Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdDirtyBits* dirtyBits,
+              TfToken const& reprToken) override;
+    void Finalize(HdRenderParam* renderParam) override;
+
+protected:
+    void _InitRepr(TfToken const& reprToken, HdDirtyBits* dirtyBits) override;
+    HdDirtyBits _PropagateDirtyBits(HdDirtyBits bits) const override { return bits; }
+    void renderTagChanged(HdSceneDelegate* delegate, HdRenderParam* renderParam) override;
+
+private:
+    enum class Rebuild { None, Points, All };
+
+    Rebuild syncTopology(HdSceneDelegate* delegate, HdDirtyBits bits, TfToken const& reprToken);
+    Rebuild syncPrimvars(HdSceneDelegate* delegate, HdDirtyBits bits);
+    Rebuild setPrimvar(HdSceneDelegate* delegate, HdPrimvarDescriptor const& descriptor, VtValue const& value,
+                       VtIntArray const& indices);
+    Rebuild setPoints(VtValue const& value);
+    bool syncComputedPrimvars(HdSceneDelegate* delegate, HdDirtyBits bits, TfTokenVector* names,
+                              Rebuild* rebuild);
+    void sendGeometry(Rebuild rebuild, HdHiprRenderParam& param);
+    void sendObject(HdSceneDelegate* delegate, HdHiprRenderParam& param);
+    void sendInstances(HdSceneDelegate* delegate, HdHiprRenderParam& param);
+
+    hipr::GeometryId _geometry;
+    hipr::ObjectId _object;
+    hipr::MeshDesc
+        _desc; ///< kept: an edit of one part needs the others, and Hydra drops what it has handed over
+    hdhipr::MeshStyle _style;
+    SdfPathVector _subsetMaterials;
+    std::shared_ptr<const hipr::TriangleMesh> _mesh;
+};
+
+PXR_NAMESPACE_CLOSE_SCOPE

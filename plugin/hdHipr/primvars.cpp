@@ -1,0 +1,111 @@
+#include "plugin/hdHipr/primvars.h"
+
+#include <cstdint>
+#include <type_traits>
+
+#include "pxr/base/gf/half.h"
+#include "pxr/base/gf/vec2d.h"
+#include "pxr/base/gf/vec2f.h"
+#include "pxr/base/gf/vec2h.h"
+#include "pxr/base/gf/vec2i.h"
+#include "pxr/base/gf/vec3d.h"
+#include "pxr/base/gf/vec3f.h"
+#include "pxr/base/gf/vec3h.h"
+#include "pxr/base/gf/vec3i.h"
+#include "pxr/base/gf/vec4d.h"
+#include "pxr/base/gf/vec4f.h"
+#include "pxr/base/gf/vec4h.h"
+#include "pxr/base/gf/vec4i.h"
+#include "pxr/base/vt/array.h"
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+namespace hdhipr {
+
+namespace {
+
+template <class T, class = void> struct Element {
+    static constexpr uint32_t components = 1;
+    static void append(T const& value, std::vector<float>& out) { out.push_back(float(value)); }
+};
+template <class T> struct Element<T, std::void_t<decltype(T::dimension)>> {
+    static constexpr uint32_t components = T::dimension;
+    static void append(T const& value, std::vector<float>& out) {
+        for (size_t c = 0; c < components; ++c) {
+            out.push_back(float(value[c]));
+        }
+    }
+};
+
+template <class T> bool convert(VtValue const& value, hipr::Primvar& out) {
+    out.components = Element<T>::components;
+    if (value.IsHolding<VtArray<T>>()) {
+        VtArray<T> const& array = value.UncheckedGet<VtArray<T>>();
+        out.values.reserve(array.size() * Element<T>::components);
+        for (size_t i = 0; i < array.size(); ++i) {
+            Element<T>::append(array.cdata()[i], out.values);
+        }
+        return true;
+    }
+    if (value.IsHolding<T>()) {
+        Element<T>::append(value.UncheckedGet<T>(), out.values);
+        return true;
+    }
+    return false;
+}
+
+template <class... T> bool convertAny(VtValue const& value, hipr::Primvar& out) {
+    return (convert<T>(value, out) || ...);
+}
+
+} // namespace
+
+std::optional<hipr::Primvar> toPrimvar(TfToken const& name, VtValue const& value) {
+    hipr::Primvar out;
+    out.name = name.GetString();
+    const bool known = convertAny<GfVec3f, GfVec2f, float, GfVec4f, int, bool, double, GfVec3d, GfVec2d,
+                                  GfVec4d, GfHalf, GfVec3h, GfVec2h, GfVec4h, GfVec2i, GfVec3i, GfVec4i,
+                                  unsigned char, unsigned int, int64_t, uint64_t>(value, out);
+    if (!known || out.values.empty()) {
+        return std::nullopt;
+    }
+    return out;
+}
+
+std::optional<hipr::Interpolation> toInterpolation(HdInterpolation interpolation) {
+    switch (interpolation) {
+    case HdInterpolationConstant:
+        return hipr::Interpolation::Constant;
+    case HdInterpolationUniform:
+        return hipr::Interpolation::Uniform;
+    case HdInterpolationVarying: // linear and per point: the same as vertex once a mesh is refined
+    case HdInterpolationVertex:
+        return hipr::Interpolation::Vertex;
+    case HdInterpolationFaceVarying:
+        return hipr::Interpolation::FaceVarying;
+    default:
+        return std::nullopt;
+    }
+}
+
+std::vector<glm::vec3> toPoints(VtValue const& value) {
+    hipr::Primvar floats;
+    std::vector<glm::vec3> points;
+    if (!convertAny<GfVec3f, GfVec3d, GfVec3h>(value, floats)) {
+        return points;
+    }
+    points.reserve(floats.values.size() / 3);
+    for (size_t i = 0; i + 2 < floats.values.size(); i += 3) {
+        points.emplace_back(floats.values[i], floats.values[i + 1], floats.values[i + 2]);
+    }
+    return points;
+}
+
+bool samePrimvar(hipr::Primvar const& a, hipr::Primvar const& b) {
+    return a.name == b.name && a.interpolation == b.interpolation && a.components == b.components &&
+           a.values == b.values && a.indices == b.indices;
+}
+
+} // namespace hdhipr
+
+PXR_NAMESPACE_CLOSE_SCOPE

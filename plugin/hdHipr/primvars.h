@@ -1,0 +1,35 @@
+/// @file primvars.h
+/// Hydra values -> the renderer's primvars.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "pxr/base/tf/token.h"
+#include "pxr/base/vt/value.h"
+#include "pxr/imaging/hd/enums.h"
+#include "pxr/pxr.h"
+#include "renderer/api/types.h"
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+namespace hdhipr {
+
+/// Numbers of any kind (half, float, double, bool, integers; scalars and 2..4-vectors; arrays and single
+/// values) as floats. Returns nothing for other types (text, matrices) and for empty arrays. The
+/// interpolation is not set.
+std::optional<hipr::Primvar> toPrimvar(TfToken const& name, VtValue const& value);
+
+/// Nothing for instance-rate primvars, which travel with the instances.
+std::optional<hipr::Interpolation> toInterpolation(HdInterpolation interpolation);
+
+/// Point positions of single, double or half precision. Empty when the value holds none.
+std::vector<glm::vec3> toPoints(VtValue const& value);
+
+bool samePrimvar(hipr::Primvar const& a, hipr::Primvar const& b);
+
+} // namespace hdhipr
+
+PXR_NAMESPACE_CLOSE_SCOPE

@@ -1,0 +1,241 @@
+#include "plugin/hdHipr/renderLoop.h"
+
+#include <algorithm>
+#include <thread>
+
+#include "plugin/hdHipr/aov.h"
+#include "plugin/hdHipr/messages.h"
+#include "plugin/hdHipr/pixelFormat.h"
+#include "plugin/hdHipr/renderBuffer.h"
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+namespace hdhipr {
+
+namespace {
+
+/// Copying pictures costs time that sampling could use; nobody sees more of them than this.
+constexpr std::chrono::milliseconds publishInterval{50};
+
+bool sameCamera(hipr::CameraDesc const& a, hipr::CameraDesc const& b) {
+    return a.worldToView == b.worldToView && a.projection == b.projection;
+}
+
+/// Puts premultiplied colour over the colour the host clears with.
+void compositeOver(std::vector<float>& rgba, GfVec4f const& background) {
+    if (background == GfVec4f(0.f)) {
+        return;
+    }
+    for (size_t i = 0; i + 3 < rgba.size(); i += 4) {
+        const float through = 1.f - rgba[i + 3];
+        for (size_t c = 0; c < 4; ++c) {
+            rgba[i + c] += through * background[c];
+        }
+    }
+}
+
+} // namespace
+
+RenderLoop::RenderLoop(std::unique_ptr<hipr::Renderer> renderer) : _renderer(std::move(renderer)) {
+    _thread.SetRenderCallback([this] { run(); });
+    _thread.StartThread();
+}
+
+RenderLoop::~RenderLoop() {
+    stop();
+    _thread.StopThread();
+}
+
+/// Called under _requestMutex.
+void RenderLoop::changed() {
+    ++_version;
+    for (AovTarget const& target : _frame.targets) {
+        target.buffer->setConverged(false);
+    }
+    if (_shown.load()) {
+        _renderer->cancel();
+    }
+}
+
+void RenderLoop::submitEdit(hipr::SceneEdit& edit) {
+    if (edit.empty()) {
+        return;
+    }
+    std::lock_guard<std::mutex> lock(_requestMutex);
+    _edit.append(edit);
+    changed();
+}
+
+void RenderLoop::submitSettings(hipr::Settings const& settings) {
+    std::lock_guard<std::mutex> lock(_requestMutex);
+    _settings = settings;
+    changed();
+}
+
+void RenderLoop::submitFrame(Frame const& frame) {
+    std::lock_guard<std::mutex> lock(_requestMutex);
+    const bool sameView = sameCamera(_frame.camera, frame.camera) && _version.load() > 0;
+    if (sameView && _frame.rect == frame.rect && _frame.targets == frame.targets) {
+        return;
+    }
+    for (AovTarget const& target : frame.targets) {
+        const auto& old = _frame.targets;
+        if (std::find(old.begin(), old.end(), target) == old.end()) {
+            target.buffer->clear(target.clearValue);
+        }
+    }
+    if (!sameView) {
+        _edit.setCamera(frame.camera);
+    }
+    _frame = frame;
+    changed();
+}
+
+void RenderLoop::releaseBuffer(HdHiprRenderBuffer* buffer) {
+    const std::scoped_lock lock(_publishMutex, _requestMutex);
+    for (Frame* frame : {&_shownFrame, &_frame}) {
+        auto& targets = frame->targets;
+        targets.erase(std::remove_if(targets.begin(), targets.end(),
+                                     [buffer](AovTarget const& target) { return target.buffer == buffer; }),
+                      targets.end());
+    }
+}
+
+void RenderLoop::kick() {
+    if (!_stopped.load() && !converged() && !_thread.IsRendering()) {
+        _thread.StartRender();
+    }
+}
+
+void RenderLoop::pause() {
+    _paused.store(true);
+    _thread.PauseRender();
+}
+
+void RenderLoop::resume() {
+    _paused.store(false);
+    _thread.ResumeRender();
+}
+
+void RenderLoop::stop() {
+    _stopped.store(true); // before cancel(): the loop looks at it after it has resumed the renderer
+    _renderer->cancel();
+    _thread.StopRender();
+}
+
+void RenderLoop::restart() {
+    _stopped.store(false);
+    kick();
+}
+
+LoopStats RenderLoop::stats() const {
+    std::lock_guard<std::mutex> lock(_requestMutex);
+    return {_renderer->progress(), _memory};
+}
+
+void RenderLoop::run() {
+    _renderer->resume();
+    while (!_stopped.load() && !_thread.IsStopRequested()) {
+        if (_thread.IsPauseRequested()) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+            continue;
+        }
+        pickUp();
+        if (_stopped.load()) {
+            break;
+        }
+        const bool more = _renderer->renderBatch();
+        const bool done = !more && !_renderer->cancelled();
+        publish(done);
+        if (done && finish()) {
+            break;
+        }
+    }
+}
+
+void RenderLoop::pickUp() {
+    hipr::SceneEdit edit;
+    hipr::Settings settings;
+    hipr::FilmDesc film;
+    {
+        const std::scoped_lock lock(_publishMutex, _requestMutex);
+        if (_pickedVersion == _version.load()) {
+            return;
+        }
+        _pickedVersion = _version.load();
+        _shown.store(false);
+        _renderer->resume();
+        edit.append(_edit);
+        settings = _settings;
+        _shownFrame = _frame;
+        _firstHitsShown = false;
+        film.width = uint32_t(std::max(_frame.rect.width, 0));
+        film.height = uint32_t(std::max(_frame.rect.height, 0));
+        film.aovs.clear();
+        for (AovTarget const& target : _frame.targets) {
+            const bool wanted =
+                target.aov && std::find(film.aovs.begin(), film.aovs.end(), *target.aov) == film.aovs.end();
+            if (wanted) {
+                film.aovs.push_back(*target.aov);
+            }
+        }
+    }
+    _renderer->setSettings(settings);
+    _renderer->setFilm(film);
+    _renderer->commit(edit);
+    hipr::MemoryReport memory = _renderer->memory();
+    std::lock_guard<std::mutex> lock(_requestMutex);
+    _memory = std::move(memory);
+}
+
+void RenderLoop::publish(bool last) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!last &&
+        (_renderer->progress().samplesDone == 0 || (_shown.load() && now - _lastPublish < publishInterval))) {
+        return;
+    }
+    std::lock_guard<std::mutex> lock(_publishMutex);
+    for (AovTarget const& target : _shownFrame.targets) {
+        if (!target.aov || (_firstHitsShown && !changesWithSamples(target.aov->kind))) {
+            continue;
+        }
+        publishTarget(target);
+    }
+    _firstHitsShown = true;
+    _lastPublish = now;
+    _shown.store(true);
+}
+
+void RenderLoop::publishTarget(AovTarget const& target) {
+    if (_shownFrame.rect.width <= 0 || _shownFrame.rect.height <= 0) {
+        return;
+    }
+    const hipr::AovFormat format = hipr::aovFormat(target.aov->kind);
+    _scratch.resize(size_t(_shownFrame.rect.width) * size_t(_shownFrame.rect.height) * format.components);
+    if (!_renderer->readAov(*target.aov, _scratch.data(), _scratch.size())) {
+        return;
+    }
+    if (target.aov->kind == hipr::AovKind::Color) {
+        compositeOver(_scratch, clearComponents(target.clearValue));
+    }
+    target.buffer->write(_shownFrame.rect, _scratch.data(), format.components, format.integer,
+                         target.clearValue);
+}
+
+/// Declares the picture converged unless a newer request has come in. Returns whether there is nothing left
+/// to do.
+bool RenderLoop::finish() {
+    std::lock_guard<std::mutex> lock(_requestMutex);
+    if (_pickedVersion != _version.load()) {
+        return false;
+    }
+    for (AovTarget const& target : _frame.targets) {
+        target.buffer->setConverged(true);
+    }
+    _convergedVersion.store(_pickedVersion);
+    return true;
+}
+
+} // namespace hdhipr
+
+PXR_NAMESPACE_CLOSE_SCOPE

@@ -1,0 +1,111 @@
+/// @file renderLoop.h
+/// The render thread: picks up edits, settings and frames between batches and publishes pictures to render
+/// buffers.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "plugin/hdHipr/compat.h"
+#include "pxr/imaging/hd/renderThread.h"
+#include "renderer/api/renderer.h"
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+class HdHiprRenderBuffer;
+
+namespace hdhipr {
+
+/// An AOV binding of a render pass.
+struct AovTarget {
+    std::optional<hipr::AovRequest> aov; ///< nothing: HiPR does not know the AOV; the buffer stays cleared
+    HdHiprRenderBuffer* buffer = nullptr;
+    unsigned int allocation = 0; ///< the buffer's content is new when this changes
+    VtValue clearValue;
+    bool operator==(AovTarget const& o) const {
+        return aov == o.aov && buffer == o.buffer && allocation == o.allocation && clearValue == o.clearValue;
+    }
+};
+
+/// What a render pass asks for: a view of the scene in some buffers.
+struct Frame {
+    hipr::CameraDesc camera;
+    PixelRect rect;
+    std::vector<AovTarget> targets;
+};
+
+struct LoopStats {
+    hipr::Progress progress;
+    hipr::MemoryReport memory;
+};
+
+/// Owns the renderer. Hydra's threads hand over requests and never wait for rendering; the render thread
+/// takes the newest of them between two batches. A batch is cut short for a newer request only when the
+/// current one has been shown, so that a stream of edits (a drag) always shows pictures.
+class RenderLoop {
+public:
+    explicit RenderLoop(std::unique_ptr<hipr::Renderer> renderer);
+    ~RenderLoop();
+
+    hipr::Renderer& renderer() { return *_renderer; }
+
+    /// Requests, for the main thread. Each restarts the picture only when it changes something.
+    void submitEdit(hipr::SceneEdit& edit); ///< moves the content out of `edit`
+    void submitSettings(hipr::Settings const& settings);
+    void submitFrame(Frame const& frame);
+
+    /// The buffer will not be written any more when this returns.
+    void releaseBuffer(HdHiprRenderBuffer* buffer);
+
+    /// Wakes the render thread when there is something to render.
+    void kick();
+
+    /// True when everything asked for so far has been rendered to the last sample and written to the buffers.
+    bool converged() const { return _convergedVersion.load() == _version.load(); }
+
+    void pause();
+    void resume();
+    void stop(); ///< returns when the render thread is idle
+    void restart();
+    bool paused() const { return _paused.load(); }
+    bool stopped() const { return _stopped.load(); }
+
+    LoopStats stats() const;
+
+private:
+    void run();
+    void pickUp();
+    void publish(bool last);
+    void publishTarget(AovTarget const& target);
+    bool finish();
+    void changed();
+
+    std::unique_ptr<hipr::Renderer> _renderer;
+    HdRenderThread _thread;
+
+    mutable std::mutex _requestMutex; ///< guards the request; held briefly
+    hipr::SceneEdit _edit;
+    hipr::Settings _settings;
+    Frame _frame;
+    hipr::MemoryReport _memory;
+    std::atomic<uint64_t> _version{0};          ///< number of the newest request
+    std::atomic<uint64_t> _convergedVersion{0}; ///< the request that was rendered to the end last
+
+    std::mutex _publishMutex; ///< guards _shownFrame while buffers are written; taken before _requestMutex
+    Frame _shownFrame;
+    std::vector<float> _scratch;
+    bool _firstHitsShown = false;
+    std::chrono::steady_clock::time_point _lastPublish;
+
+    uint64_t _pickedVersion = 0;     ///< render thread only
+    std::atomic<bool> _shown{false}; ///< the picked-up request has been published at least once
+    std::atomic<bool> _paused{false}, _stopped{false};
+};
+
+} // namespace hdhipr
+
+PXR_NAMESPACE_CLOSE_SCOPE

@@ -1,0 +1,99 @@
+#include "plugin/hdHipr/renderParam.h"
+
+#include <algorithm>
+
+#include "plugin/hdHipr/messages.h"
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+using namespace hdhipr;
+
+HdHiprRenderParam::HdHiprRenderParam(hipr::RendererOptions const& options) {
+    std::string error;
+    std::unique_ptr<hipr::Renderer> renderer = hipr::Renderer::create(options, &error);
+    if (renderer) {
+        report(hipr::Severity::Info, "", "rendering on " + renderer->device().name);
+        _loop = std::make_unique<RenderLoop>(std::move(renderer));
+    } else {
+        report(hipr::Severity::Error, "", "cannot render: " + error);
+    }
+}
+
+hipr::MaterialId HdHiprRenderParam::materialId(SdfPath const& path) {
+    if (path.IsEmpty()) {
+        return hipr::MaterialId::None;
+    }
+    std::lock_guard<std::mutex> lock(_mutex);
+    hipr::MaterialId& id = _materials[path];
+    if (id == hipr::MaterialId::None) {
+        id = newId<hipr::MaterialId>();
+    }
+    return id;
+}
+
+bool HdHiprRenderParam::included(ObjectState const& state) const {
+    const auto above = [&](SdfPath const& path) { return state.path.HasPrefix(path); };
+    const bool tagged = _renderTags.empty() || std::find(_renderTags.begin(), _renderTags.end(),
+                                                         state.renderTag) != _renderTags.end();
+    const bool rooted = _rootPaths.empty() || std::any_of(_rootPaths.begin(), _rootPaths.end(), above);
+    return tagged && rooted && std::none_of(_excludePaths.begin(), _excludePaths.end(), above);
+}
+
+/// Called under _mutex.
+void HdHiprRenderParam::emitObject(hipr::ObjectId id, ObjectState const& state) {
+    hipr::ObjectDesc desc = state.desc;
+    desc.visible = desc.visible && included(state);
+    _edit.setObject(id, std::move(desc));
+}
+
+void HdHiprRenderParam::setObject(hipr::ObjectId id, ObjectState const& state) {
+    std::lock_guard<std::mutex> lock(_mutex);
+    _objects[id] = state;
+    emitObject(id, state);
+}
+
+void HdHiprRenderParam::removeObject(hipr::ObjectId id) {
+    std::lock_guard<std::mutex> lock(_mutex);
+    _objects.erase(id);
+    _edit.removeObject(id);
+}
+
+void HdHiprRenderParam::setFilter(HdRprimCollection const& collection, TfTokenVector const& renderTags) {
+    std::lock_guard<std::mutex> lock(_mutex);
+    if (collection.GetRootPaths() == _rootPaths && collection.GetExcludePaths() == _excludePaths &&
+        renderTags == _renderTags) {
+        return;
+    }
+    std::vector<hipr::ObjectId> before;
+    for (auto const& [id, state] : _objects) {
+        if (included(state)) {
+            before.push_back(id);
+        }
+    }
+    std::sort(before.begin(), before.end());
+    _rootPaths = collection.GetRootPaths();
+    _excludePaths = collection.GetExcludePaths();
+    _renderTags = renderTags;
+    for (auto const& [id, state] : _objects) {
+        const bool was = std::binary_search(before.begin(), before.end(), id);
+        if (was != included(state)) {
+            emitObject(id, state);
+        }
+    }
+}
+
+void HdHiprRenderParam::commitEdits() {
+    if (_loop) {
+        _loop->submitEdit(_edit);
+    } else {
+        _edit.clear();
+    }
+}
+
+void HdHiprRenderParam::releaseBuffer(HdHiprRenderBuffer* buffer) {
+    if (_loop) {
+        _loop->releaseBuffer(buffer);
+    }
+}
+
+PXR_NAMESPACE_CLOSE_SCOPE

@@ -1,0 +1,79 @@
+#include "plugin/hdHipr/renderPass.h"
+
+#include "plugin/hdHipr/aov.h"
+#include "plugin/hdHipr/convert.h"
+#include "plugin/hdHipr/messages.h"
+#include "plugin/hdHipr/renderBuffer.h"
+#include "plugin/hdHipr/renderParam.h"
+#include "pxr/imaging/hd/renderIndex.h"
+#include "pxr/imaging/hd/tokens.h"
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+using namespace hdhipr;
+
+HdHiprRenderPass::HdHiprRenderPass(HdRenderIndex* index, HdRprimCollection const& collection,
+                                   HdHiprRenderParam& param)
+    : HdRenderPass(index, collection), _param(param), _repr(collection.GetReprSelector()) {}
+
+void HdHiprRenderPass::_MarkCollectionDirty() {
+    // A mesh has one shape at a time, that of the repr it synced last: another repr must sync again.
+    if (GetRprimCollection().GetReprSelector() == _repr) {
+        return;
+    }
+    _repr = GetRprimCollection().GetReprSelector();
+    GetRenderIndex()->GetChangeTracker().MarkAllRprimsDirty(HdChangeTracker::DirtyRepr);
+}
+
+bool HdHiprRenderPass::IsConverged() const {
+    return _nothingBound || !_param.canRender() || _param.loop()->converged();
+}
+
+HdHiprRenderBuffer* HdHiprRenderPass::bufferOf(HdRenderPassAovBinding const& binding) const {
+    HdBprim* buffer = binding.renderBuffer;
+    if (!buffer) {
+        buffer = GetRenderIndex()->GetBprim(HdPrimTypeTokens->renderBuffer, binding.renderBufferId);
+    }
+    return dynamic_cast<HdHiprRenderBuffer*>(buffer);
+}
+
+void HdHiprRenderPass::_Execute(HdRenderPassStateSharedPtr const& state, TfTokenVector const& renderTags) {
+    std::vector<AovTarget> targets;
+    int height = 0;
+    for (HdRenderPassAovBinding const& binding : state->GetAovBindings()) {
+        HdHiprRenderBuffer* buffer = bufferOf(binding);
+        if (!buffer) {
+            warnOnce(binding.renderBufferId.GetString(),
+                     "AOV '" + binding.aovName.GetString() + "' is bound to no render buffer of HiPR");
+            continue;
+        }
+        targets.push_back({aovRequest(binding.aovName), buffer, buffer->allocation(), binding.clearValue});
+        height = std::max(height, int(buffer->GetHeight()));
+    }
+    if (!_param.canRender()) {
+        for (AovTarget const& target : targets) {
+            target.buffer->clear(target.clearValue);
+            target.buffer->setConverged(true);
+        }
+        return;
+    }
+    _nothingBound = targets.empty();
+    if (_nothingBound) {
+        warnOnce("", "the host asks for no AOV, so there is nothing to render into");
+        return;
+    }
+    if (!state->GetClipPlanes().empty()) {
+        warnOnce("", "clipping planes are not supported and have no effect");
+    }
+
+    Frame frame;
+    frame.camera = {toGlm(state->GetWorldToViewMatrix()), toGlm(state->GetProjectionMatrix())};
+    frame.rect = renderRect(*state, height);
+    frame.targets = std::move(targets);
+    _param.setFilter(GetRprimCollection(), renderTags);
+    _param.commitEdits();
+    _param.loop()->submitFrame(frame);
+    _param.loop()->kick();
+}
+
+PXR_NAMESPACE_CLOSE_SCOPE

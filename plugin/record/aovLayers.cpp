@@ -1,0 +1,38 @@
+#include "plugin/record/aovLayers.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace hipr::record {
+
+namespace {
+
+bool isGeometricVector(const std::string& aov) {
+    static const char* const names[] = {"normal", "Neye", "Peye", "P", "N", "motion", "velocity"};
+    return std::find(std::begin(names), std::end(names), aov) != std::end(names);
+}
+
+std::string componentLetters(const std::string& aov, int components, bool integer) {
+    if (components == 1) {
+        if (integer) return "I";
+        return aov == "depth" || aov == "cameraDepth" ? "Z" : "V";
+    }
+    return isGeometricVector(aov) ? "XYZW" : "RGBA";
+}
+
+} // namespace
+
+std::vector<std::string> aovChannelNames(const std::string& aov, int components, bool integer) {
+    const std::string letters = componentLetters(aov, components, integer);
+    std::string prefix;
+    if (aov != "color") {
+        prefix = aov + ".";
+        std::replace(prefix.begin(), prefix.end(), ':', '.');
+    }
+    std::vector<std::string> names;
+    for (int i = 0; i < components; ++i)
+        names.push_back(prefix + letters[size_t(i)]);
+    return names;
+}
+
+} // namespace hipr::record

@@ -1,0 +1,20 @@
+/// @file aovLayers.h
+/// How AOVs are named inside a multi-layer EXR.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace hipr::record {
+
+/// EXR channel names of an AOV with 1 to 4 components:
+///   color                       R G B A (the main layer, without a prefix)
+///   depth, cameraDepth          <aov>.Z
+///   normal, Neye, Peye, ...     <aov>.X <aov>.Y <aov>.Z
+///   other float vectors         <aov>.R <aov>.G <aov>.B <aov>.A
+///   other single floats         <aov>.V
+///   ids and counts (integers)   <aov>.I
+/// ':' becomes '.', so "primvars:st" is the layer "primvars.st".
+std::vector<std::string> aovChannelNames(const std::string& aov, int components, bool integer);
+
+} // namespace hipr::record

@@ -1,0 +1,63 @@
+#include "plugin/record/diagnostics.h"
+
+#include <atomic>
+#include <cstdio>
+#include <unistd.h>
+
+#include "pxr/base/tf/diagnosticMgr.h"
+#include "pxr/base/tf/error.h"
+#include "pxr/base/tf/status.h"
+#include "pxr/base/tf/warning.h"
+
+PXR_NAMESPACE_USING_DIRECTIVE
+
+namespace hipr::record {
+
+namespace {
+
+std::atomic<Verbosity> currentVerbosity{Verbosity::Normal};
+
+void printLine(const char* kind, const std::string& message) {
+    // On a terminal the progress bar may occupy the line.
+    static const char* const clearLine = isatty(STDERR_FILENO) ? "\r\033[K" : "";
+    std::fprintf(stderr, "%shiprrecord: %s: %s\n", clearLine, kind, message.c_str());
+}
+
+std::string trimmed(const std::string& text) {
+    const size_t begin = text.find_first_not_of(" \n\t"), end = text.find_last_not_of(" \n\t");
+    return begin == std::string::npos ? "" : text.substr(begin, end - begin + 1);
+}
+
+} // namespace
+
+void printWarning(const std::string& message) {
+    if (currentVerbosity != Verbosity::Quiet) printLine("warning", message);
+}
+
+void printError(const std::string& message) {
+    printLine("error", message);
+}
+
+struct Diagnostics::Route : TfDiagnosticMgr::Delegate {
+    void IssueError(const TfError& error) override { printError(trimmed(error.GetCommentary())); }
+    void IssueFatalError(const TfCallContext&, const std::string& message) override {
+        printError(trimmed(message));
+        _UnhandledAbort();
+    }
+    void IssueStatus(const TfStatus& status) override {
+        if (currentVerbosity == Verbosity::Verbose) printLine("status", trimmed(status.GetCommentary()));
+    }
+    void IssueWarning(const TfWarning& warning) override { printWarning(trimmed(warning.GetCommentary())); }
+};
+
+Diagnostics::Diagnostics(Verbosity verbosity) : _route(new Route) {
+    currentVerbosity = verbosity;
+    TfDiagnosticMgr::GetInstance().AddDelegate(_route);
+}
+
+Diagnostics::~Diagnostics() {
+    TfDiagnosticMgr::GetInstance().RemoveDelegate(_route);
+    delete _route;
+}
+
+} // namespace hipr::record

@@ -1,0 +1,148 @@
+#include "plugin/record/images.h"
+
+#include <OpenImageIO/imageio.h>
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <unistd.h>
+
+#include "plugin/record/aovLayers.h"
+#include "plugin/record/failure.h"
+
+namespace fs = std::filesystem;
+
+namespace hipr::record {
+
+namespace {
+
+/// A hidden file beside the final one, so that the rename stays on one file system.
+fs::path temporaryPath(const fs::path& path) {
+    return path.parent_path() /
+           ("." + path.stem().string() + "." + std::to_string(getpid()) + path.extension().string());
+}
+
+[[noreturn]] void fail(const std::string& path, const std::string& why) {
+    throw Failure(ExitOutput, "cannot write '" + path + "': " + why);
+}
+
+OIIO::ImageSpec exrSpec(const Picture& picture) {
+    size_t channels = 0;
+    for (const Layer& layer : picture.layers)
+        channels += size_t(layer.components);
+    OIIO::ImageSpec spec(picture.width, picture.height, int(channels), OIIO::TypeFloat);
+    spec.channelnames.clear();
+    for (const Layer& layer : picture.layers)
+        for (const std::string& name : aovChannelNames(layer.aov, layer.components, layer.integer)) {
+            if (name == "A") spec.alpha_channel = int(spec.channelnames.size());
+            spec.channelnames.push_back(name);
+            spec.channelformats.push_back(layer.integer ? OIIO::TypeUInt : OIIO::TypeFloat);
+        }
+    const PictureInfo& info = picture.info;
+    spec.attribute("compression", "zip");
+    spec.attribute("oiio:ColorSpace", "Linear");
+    spec.attribute("Software", info.software);
+    spec.attribute("worldtocamera", OIIO::TypeMatrix, info.worldToCamera);
+    spec.attribute("worldtoNDC", OIIO::TypeMatrix, info.worldToNdc);
+    spec.attribute("hipr:scene", info.scene);
+    spec.attribute("hipr:camera", info.camera);
+    spec.attribute("hipr:frame", float(info.frame));
+    spec.attribute("hipr:samples", int(info.samples));
+    spec.attribute("hipr:renderTime", float(info.seconds));
+    spec.attribute("hipr:settings", info.settings);
+    return spec;
+}
+
+std::vector<uint32_t> interleaved(const Picture& picture, int channels) {
+    const size_t pixels = size_t(picture.width) * size_t(picture.height);
+    std::vector<uint32_t> data(pixels * size_t(channels));
+    size_t first = 0;
+    for (const Layer& layer : picture.layers) {
+        const size_t n = size_t(layer.components);
+        for (size_t p = 0; p < pixels; ++p)
+            std::copy_n(&layer.words[p * n], n, &data[p * size_t(channels) + first]);
+        first += n;
+    }
+    return data;
+}
+
+/// The color AOV as RGBA8, opaque over black unless alpha is kept.
+std::vector<uint8_t> displayPixels(const std::string& path, const Picture& picture, const ViewTransform& view,
+                                   bool alpha) {
+    const Layer* color = picture.find("color");
+    if (!color || color->integer || color->components < 3) fail(path, "the picture has no color AOV");
+    const size_t pixels = size_t(picture.width) * size_t(picture.height), n = size_t(color->components);
+    std::vector<float> rgba(pixels * 4, 1.f);
+    for (size_t p = 0; p < pixels; ++p)
+        std::copy_n(color->floats() + p * n, alpha ? n : 3, &rgba[p * 4]);
+    std::vector<uint8_t> bytes(pixels * 4);
+    view.apply(rgba.data(), bytes.data(), pixels);
+    return bytes;
+}
+
+void writeFile(const std::string& path, const OIIO::ImageSpec& spec, OIIO::TypeDesc format, const void* data,
+               OIIO::stride_t pixelStride) {
+    const fs::path temporary = temporaryPath(path);
+    const auto output = OIIO::ImageOutput::create(path);
+    if (!output) fail(path, OIIO::geterror());
+    const bool ok = output->open(temporary.string(), spec) && output->write_image(format, data, pixelStride);
+    const std::string why = ok ? "" : output->geterror();
+    std::error_code error;
+    if (!output->close() || !ok) {
+        fs::remove(temporary, error);
+        fail(path, why.empty() ? "the file could not be completed" : why);
+    }
+    fs::rename(temporary, path, error);
+    if (!error) return;
+    const std::string reason = error.message();
+    fs::remove(temporary, error);
+    fail(path, reason);
+}
+
+void writeDisplay(const std::string& path, const Picture& picture, const DisplayOptions& display) {
+    const bool alpha = display.alpha && imageKind(path) == "png";
+    const std::vector<uint8_t> bytes = displayPixels(path, picture, *display.view, alpha);
+    OIIO::ImageSpec spec(picture.width, picture.height, alpha ? 4 : 3, OIIO::TypeUInt8);
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    spec.attribute("Compression", "jpeg:95");
+    spec.attribute("Software", picture.info.software);
+    writeFile(path, spec, OIIO::TypeUInt8, bytes.data(), 4);
+}
+
+} // namespace
+
+const Layer* Picture::find(const std::string& aov) const {
+    for (const Layer& layer : layers)
+        if (layer.aov == aov) return &layer;
+    return nullptr;
+}
+
+std::string imageKind(const std::string& path) {
+    std::string extension = fs::path(path).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return std::tolower(c); });
+    if (extension == ".exr" || extension == ".png" || extension == ".jpg") return extension.substr(1);
+    return extension == ".jpeg" ? "jpg" : "";
+}
+
+std::string whyNotWritable(const std::string& path) {
+    std::error_code error;
+    if (fs::is_directory(path, error)) return "it is a folder";
+    const fs::path temporary = temporaryPath(path);
+    const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file < 0) return std::strerror(errno);
+    ::close(file);
+    fs::remove(temporary, error);
+    return "";
+}
+
+void writePicture(const std::string& path, const Picture& picture, const DisplayOptions& display) {
+    if (imageKind(path) != "exr") return writeDisplay(path, picture, display);
+    const OIIO::ImageSpec spec = exrSpec(picture);
+    const std::vector<uint32_t> data = interleaved(picture, spec.nchannels);
+    writeFile(path, spec, OIIO::TypeUnknown, data.data(), OIIO::AutoStride);
+}
+
+} // namespace hipr::record

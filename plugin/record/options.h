@@ -1,0 +1,46 @@
+/// @file options.h
+/// The command line of hiprrecord.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "plugin/record/diagnostics.h"
+
+namespace hipr::record {
+
+struct Options {
+    std::string scene;
+    std::vector<std::string> outputs; ///< may hold frame placeholders
+
+    std::string camera;         ///< name, path, "auto", or empty for the default
+    int width = 0, height = 0;  ///< 0: from the camera
+    std::vector<double> frames; ///< empty: the stage's first
+    std::vector<std::string> aovs{"color"};
+    std::vector<std::string> purposes{"default", "proxy"}; ///< always holds "default"
+    std::vector<std::string> mask;
+    int refineLevel = 0;
+
+    int samples = 0;    ///< 0: the renderer's own
+    double seconds = 0; ///< 0: no limit
+    std::vector<std::pair<std::string, std::string>> settings;
+    std::string renderer = "HiPR", device;
+    std::string view; ///< "VIEW" or "DISPLAY/VIEW"; empty for the default
+    float exposure = 0;
+    bool alpha = false;
+
+    bool listSettings = false, listAovs = false, listCameras = false, listRenderers = false;
+    bool memory = false;
+    std::string statsFile; ///< empty: none; "-": standard output
+    Verbosity verbosity = Verbosity::Normal;
+
+    bool onlyLists() const { return listSettings || listAovs || listCameras || listRenderers; }
+};
+
+/// Parses the command line. Returns nothing when help or the version was printed. Throws Failure with
+/// ExitUsage.
+std::optional<Options> parseOptions(int argc, const char* const* argv);
+
+} // namespace hipr::record
