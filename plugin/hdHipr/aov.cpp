@@ -39,10 +39,13 @@ std::optional<hipr::AovRequest> aovRequest(TfToken const& name) {
 HdAovDescriptor aovDescriptor(TfToken const& name) {
     const std::optional<hipr::AovRequest> request = aovRequest(name);
     if (!request) {
+        HdAovDescriptor unknown(HdFormatFloat32Vec4, false, VtValue(GfVec4f(0.f)));
         if (name == HdAovTokens->edgeId || name == HdAovTokens->pointId) {
-            return HdAovDescriptor(HdFormatInt32, false, VtValue(-1)); // nothing can be picked
+            unknown = HdAovDescriptor(HdFormatInt32, false, VtValue(-1)); // nothing can be picked
         }
-        return HdAovDescriptor(HdFormatFloat32Vec4, false, VtValue(GfVec4f(0.f)));
+        // So that a host can tell a misspelt name from one that is rendered.
+        unknown.aovSettings[TfToken("hipr:unknown")] = VtValue(true);
+        return unknown;
     }
     switch (request->kind) {
     case AovKind::Color:
