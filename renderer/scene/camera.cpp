@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace hipr {
 namespace {
@@ -14,71 +15,80 @@ bool finite(const glm::dmat4& m) {
 }
 
 // Depth along the view axis of the clip plane z = ndcZ at the centre of the picture.
-double planeDepth(const glm::dmat4& clipToWorld, double ndcZ, const glm::dvec3& origin,
-                  const glm::dvec3& forward) {
-    const glm::dvec4 p = clipToWorld * glm::dvec4(0, 0, ndcZ, 1);
+double planeDepth(const glm::dmat4& clipToView, double ndcZ, const glm::dvec3& eye) {
+    const glm::dvec4 p = clipToView * glm::dvec4(0, 0, ndcZ, 1);
     if (std::abs(p.w) <= 1e-12 * glm::length(glm::dvec3(p))) return std::numeric_limits<float>::max();
-    const double depth = glm::dot(glm::dvec3(p) / p.w - origin, forward);
-    return depth;
+    return eye.z - p.z / p.w;
+}
+
+/// CameraRecord's rays in view space, in double precision.
+struct ViewRays {
+    glm::dvec3 origin{0}, originX{0}, originY{0}, direction{0}, directionX{0}, directionY{0};
+    double nearDepth = 0, farDepth = 0;
+};
+
+// Let M be the inverse of the projection. All rays pass through the homogeneous point E = M (0, 0, 1, 0): the
+// eye when E.w is not 0, else the common direction. The ray of (x, y) also passes through A = M (x, y, 0, 1),
+// and A.xyz - eye A.w is its direction times A.w, which is affine in x and y.
+ViewRays viewRays(const glm::dmat4& m) {
+    ViewRays rays;
+    const glm::dvec4 e = m[2];
+    const bool orthographic = std::abs(e.w) <= 1e-12 * glm::length(glm::dvec3(e));
+    if (orthographic) {
+        const double w = m[3].w;
+        rays.origin = glm::dvec3(m[3]) / w;
+        rays.originX = glm::dvec3(m[0]) / w;
+        rays.originY = glm::dvec3(m[1]) / w;
+        rays.direction = glm::dvec3(e);
+    } else {
+        rays.origin = glm::dvec3(e) / e.w;
+        rays.direction = glm::dvec3(m[3]) - rays.origin * m[3].w;
+        rays.directionX = glm::dvec3(m[0]) - rays.origin * m[0].w;
+        rays.directionY = glm::dvec3(m[1]) - rays.origin * m[1].w;
+    }
+    const double scale = (rays.direction.z > 0 ? -1 : 1) / glm::length(rays.direction);
+    rays.direction *= scale;
+    rays.directionX *= scale;
+    rays.directionY *= scale;
+
+    rays.nearDepth = planeDepth(m, -1, rays.origin);
+    rays.farDepth = planeDepth(m, 1, rays.origin);
+    // Beyond infinity lies behind the eye.
+    if (!orthographic && rays.nearDepth < 0) rays.nearDepth = std::numeric_limits<float>::max();
+    if (!orthographic && rays.farDepth < 0) rays.farDepth = std::numeric_limits<float>::max();
+    if (rays.nearDepth > rays.farDepth) std::swap(rays.nearDepth, rays.farDepth);
+    if (orthographic) { // rays start on the near plane
+        rays.origin.z -= rays.nearDepth;
+        rays.farDepth -= rays.nearDepth;
+        rays.nearDepth = 0;
+    }
+    return rays;
 }
 
 } // namespace
 
-// Let M be the inverse of the clip matrix. All rays pass through the homogeneous point E = M (0, 0, 1, 0):
-// the eye when E.w is not 0, else the common direction. The ray of (x, y) also passes through A = M (x, y, 0,
-// 1), and A.xyz - eye A.w is its direction times A.w, which is affine in x and y.
 std::optional<gpu::CameraRecord> cameraRecord(const CameraDesc& camera) {
-    const glm::dmat4 worldToClip = camera.projection * camera.worldToView;
     if (!finite(camera.worldToView) || !finite(camera.projection)) return std::nullopt;
-    const glm::dmat4 projectionInverse = glm::inverse(camera.projection);
-    const glm::dmat4 viewToWorld = glm::inverse(camera.worldToView);
-    const glm::dmat4 m = viewToWorld * projectionInverse;
-    if (!finite(m)) return std::nullopt;
-
-    const glm::dvec3 forward = -glm::normalize(glm::dvec3(viewToWorld[2]));
-    const glm::dvec4 e = m[2];
-    glm::dvec3 origin, originX(0), originY(0), direction, directionX(0), directionY(0);
-    const bool orthographic = std::abs(e.w) <= 1e-12 * glm::length(glm::dvec3(e));
-    if (orthographic) {
-        const double w = m[3].w;
-        origin = glm::dvec3(m[3]) / w;
-        originX = glm::dvec3(m[0]) / w;
-        originY = glm::dvec3(m[1]) / w;
-        direction = glm::dvec3(e);
-    } else {
-        origin = glm::dvec3(e) / e.w;
-        direction = glm::dvec3(m[3]) - origin * m[3].w;
-        directionX = glm::dvec3(m[0]) - origin * m[0].w;
-        directionY = glm::dvec3(m[1]) - origin * m[1].w;
-    }
-    const double scale = (glm::dot(direction, forward) < 0 ? -1 : 1) / glm::length(direction);
-    if (!std::isfinite(scale)) return std::nullopt;
-
-    double nearDepth = planeDepth(m, -1, origin, forward);
-    double farDepth = planeDepth(m, 1, origin, forward);
-    // Beyond infinity lies behind the eye.
-    if (!orthographic && nearDepth < 0) nearDepth = std::numeric_limits<float>::max();
-    if (!orthographic && farDepth < 0) farDepth = std::numeric_limits<float>::max();
-    if (nearDepth > farDepth) std::swap(nearDepth, farDepth);
-    if (orthographic) { // rays start on the near plane
-        origin += forward * nearDepth;
-        farDepth -= nearDepth;
-        nearDepth = 0;
-    }
-    if (!(farDepth > nearDepth)) return std::nullopt;
+    const glm::dmat4 clipToView = glm::inverse(camera.projection),
+                     viewToWorld = glm::inverse(camera.worldToView);
+    if (!finite(clipToView) || !finite(viewToWorld)) return std::nullopt;
+    const ViewRays rays = viewRays(clipToView);
+    const glm::dmat3 toWorld(viewToWorld);
+    if (!std::isfinite(glm::length(rays.direction)) || !(rays.farDepth > rays.nearDepth)) return std::nullopt;
 
     gpu::CameraRecord record{};
-    record.worldToClip = glm::mat4(worldToClip);
+    record.worldToClip = glm::mat4(camera.projection * camera.worldToView);
     record.worldToView = glm::mat4x3(camera.worldToView);
-    record.origin = origin;
-    record.originX = originX;
-    record.originY = originY;
-    record.nearDepth = float(nearDepth);
-    record.farDepth = float(farDepth);
-    record.direction = direction * scale;
-    record.directionX = directionX * scale;
-    record.directionY = directionY * scale;
-    record.forward = forward;
+    record.origin = glm::dvec3(viewToWorld * glm::dvec4(rays.origin, 1));
+    record.originX = toWorld * rays.originX;
+    record.originY = toWorld * rays.originY;
+    record.nearDepth = float(rays.nearDepth);
+    record.farDepth = float(rays.farDepth);
+    record.direction = toWorld * rays.direction;
+    record.directionX = toWorld * rays.directionX;
+    record.directionY = toWorld * rays.directionY;
+    const glm::dmat4& v = camera.worldToView; // may scale: depths are in view units
+    record.forward = -glm::dvec3(v[0].z, v[1].z, v[2].z);
     return record;
 }
 

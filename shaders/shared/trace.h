@@ -18,7 +18,7 @@ struct TileWork {
 //   direction = normalize(direction + x * directionX + y * directionY),
 //   origin    = origin + x * originX + y * originY   (the axes are 0 for a pinhole),
 // which is exact for every projective matrix and, unlike unprojecting two points, keeps its precision far from the
-// world's origin. Lengths along the view axis between nearDepth and farDepth are seen, counted from `origin`.
+// world's origin. Seen is what has a depth of nearDepth to farDepth, depth being dot(forward, point - origin).
 struct CameraRecord {
     mat4 worldToClip;
     mat4x3 worldToView;
@@ -30,7 +30,7 @@ struct CameraRecord {
     vec3 direction;
     vec3 directionX;
     vec3 directionY;
-    vec3 forward;            // unit view axis in world space
+    vec3 forward;            // gradient of the view-space depth: the view axis, of unit length unless the view scales
 };
 
 // The first hit of the ray through the pixel centre; every "first hit" AOV is resolved from it.
@@ -38,7 +38,7 @@ struct VisibilityRecord {
     uint instance;           // NO_INDEX: nothing
     uint primitive;
     float u, v;
-    float cameraDepth;       // distance along `forward` from the camera's origin
+    float cameraDepth;       // depth, see CameraRecord
 };
 
 // One path between two kernels.
