@@ -97,7 +97,7 @@ TEST(Camera, KeepsPrecisionFarFromTheOrigin) {
 TEST(Camera, ViewsThatScale) {
     std::mt19937 random(3);
     for (double size : {0.01, 1.0, 250.0})
-        expectMatches({glm::scale(glm::dmat4(1), glm::dvec3(size, size, size)) * someView(random, 10),
+        expectMatches({glm::scale(glm::dmat4(1), glm::dvec3(size, size, size)) * someView(random, 10 / size),
                        glm::perspective(0.7, 1.5, 0.1, 50.0)},
                       1e-4);
 }
