@@ -89,20 +89,19 @@ def run(what: str, command: Iterable[object], log: Path, *, cwd: Optional[Path] 
         with log.open("a", encoding="utf-8") as record:
             record.write(f"\n--- {time.strftime('%F %T')} {what}\n$ {shlex.join(arguments)}\n")
             record.flush()
-            process = subprocess.Popen(arguments, cwd=cwd, env=env, text=True, errors="replace",
-                                       stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-            try:
-                for line in process.stdout:
-                    record.write(line)
-                    tail.append(line.rstrip())
-                    text = reader(line.rstrip()) if reader else None
-                    if text:
-                        status.show(text)
-                code = process.wait()
-            except BaseException:
-                process.terminate()  # an interrupt: the tool must not go on behind our back
-                process.wait()
-                raise
+            with subprocess.Popen(arguments, cwd=cwd, env=env, text=True, errors="replace", stdin=subprocess.DEVNULL,
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as process:
+                try:
+                    for line in process.stdout:
+                        record.write(line)
+                        tail.append(line.rstrip())
+                        text = reader(line.rstrip()) if reader else None
+                        if text:
+                            status.show(text)
+                    code = process.wait()
+                except BaseException:
+                    process.terminate()  # an interrupt: the tool must not go on behind our back
+                    raise
     except FileNotFoundError as error:
         raise HiprError(f"{what}: `{arguments[0]}` is not installed.",
                         "`hipr setup` installs what is missing.") from error
