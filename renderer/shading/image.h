@@ -20,6 +20,7 @@ struct Image {
     uint32_t format = 0; ///< gpu::TEXEL_*
     WrapMode wrapS = WrapMode::Black,
              wrapT = WrapMode::Black; ///< from the file's metadata; Black if it has none
+    bool opaque = false;              ///< alpha is 1 everywhere
     std::vector<unsigned char> texels;
 
     size_t bytesPerTexel() const;

@@ -32,7 +32,8 @@ struct TextureRange {
     uint32_t udimTiles = 0;
 };
 
-/// Owns all texels. Used by one thread (commit); loads on many.
+/// Owns all texels. Used by one thread (commit); loads on many, so the AssetReader is called from several
+/// threads at once.
 ///
 /// Order of a commit: MaterialTable and LightTable `set` and `remove`, then TextureStore::commit(), then the
 /// tables' own commit().
@@ -55,6 +56,12 @@ public:
 
     /// Where a texture's records are. Valid after commit().
     TextureRange range(uint32_t texture) const;
+
+    /// Counts the changes of the record table.
+    uint32_t version() const;
+
+    /// Whether alpha is known to be 1 all over the texture. Valid after commit().
+    bool opaque(uint32_t texture) const;
 
     /// Host pixels of a texture acquired with keepPixels, or null when it could not be read. Valid after
     /// commit().

@@ -1,0 +1,15 @@
+# OpenColorIO::OpenColorIO by header and library: the package file of some distributions is not where CMake looks.
+find_path(OpenColorIO_INCLUDE_DIR OpenColorIO/OpenColorIO.h)
+find_library(OpenColorIO_LIBRARY OpenColorIO)
+if(OpenColorIO_INCLUDE_DIR)
+    file(STRINGS ${OpenColorIO_INCLUDE_DIR}/OpenColorIO/OpenColorABI.h line REGEX "define OCIO_VERSION ")
+    string(REGEX REPLACE ".*\"([0-9.]+).*" "\\1" OpenColorIO_VERSION "${line}")
+endif()
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(OpenColorIO
+    REQUIRED_VARS OpenColorIO_LIBRARY OpenColorIO_INCLUDE_DIR VERSION_VAR OpenColorIO_VERSION)
+if(OpenColorIO_FOUND AND NOT TARGET OpenColorIO::OpenColorIO)
+    add_library(OpenColorIO::OpenColorIO INTERFACE IMPORTED)
+    target_include_directories(OpenColorIO::OpenColorIO INTERFACE ${OpenColorIO_INCLUDE_DIR})
+    target_link_libraries(OpenColorIO::OpenColorIO INTERFACE ${OpenColorIO_LIBRARY})
+endif()

@@ -1,0 +1,190 @@
+#include "renderer/shading/light_shape.h"
+
+#include <cmath>
+
+#include "renderer/shading/blackbody.h"
+#include "shaders/shared/scene.h"
+
+namespace hipr {
+
+namespace {
+
+constexpr double Pi = 3.14159265358979323846;
+
+template <class M> bool isFinite(const M& m) {
+    bool finite = true;
+    for (int c = 0; c < m.length(); ++c)
+        for (int r = 0; r < m[c].length(); ++r)
+            finite = finite && std::isfinite(m[c][r]);
+    return finite;
+}
+
+double halfAngle(const LightDesc& desc) {
+    return std::min(std::max(double(desc.angle), 0.0), 360.0) * (Pi / 360.0);
+}
+
+/// Area of the image of the sphere of radius 1 under `m`: integral of |det m| |m^-T n| over all n.
+double ellipsoidArea(const glm::dmat3& m) {
+    const glm::dmat3 inverseTranspose = glm::transpose(glm::inverse(m));
+    constexpr int Rows = 128, Columns = 256; // midpoint rule: converges fast on a smooth periodic integrand
+    double sum = 0.0;
+    for (int j = 0; j < Rows; ++j) {
+        const double theta = Pi * (j + 0.5) / Rows;
+        for (int i = 0; i < Columns; ++i) {
+            const double phi = 2.0 * Pi * (i + 0.5) / Columns;
+            const glm::dvec3 n(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                               std::cos(theta));
+            sum += std::sin(theta) * glm::length(inverseTranspose * n);
+        }
+    }
+    return sum * (Pi / Rows) * (2.0 * Pi / Columns) * std::abs(glm::determinant(m));
+}
+
+/// Perimeter of the image of the unit circle in the yz plane, times the stretch across the axis: side area of
+/// a cylinder of radius 1 and length 1.
+double cylinderArea(const glm::dmat3& m) {
+    constexpr int Steps = 4096;
+    double sum = 0.0;
+    for (int i = 0; i < Steps; ++i) {
+        const double phi = 2.0 * Pi * (i + 0.5) / Steps;
+        const glm::dvec3 along = m[2] * std::cos(phi) - m[1] * std::sin(phi);
+        sum += glm::length(glm::cross(m[0], along));
+    }
+    return sum * 2.0 * Pi / Steps;
+}
+
+double areaOf(const LightDesc& desc) {
+    const glm::dmat3 m(desc.transform);
+    switch (desc.kind) {
+    case LightKind::Rect:
+        return glm::length(glm::cross(m[0], m[1])) * desc.width * desc.height;
+    case LightKind::Disk:
+        return glm::length(glm::cross(m[0], m[1])) * Pi * desc.radius * desc.radius;
+    case LightKind::Sphere:
+        return ellipsoidArea(m) * desc.radius * desc.radius;
+    case LightKind::Cylinder:
+        return cylinderArea(m) * desc.radius * desc.length;
+    default:
+        return 0.0;
+    }
+}
+
+bool positiveSize(const LightDesc& desc) {
+    switch (desc.kind) {
+    case LightKind::Rect:
+        return desc.width > 0.f && desc.height > 0.f;
+    case LightKind::Cylinder:
+        return desc.radius > 0.f && desc.length > 0.f;
+    case LightKind::Sphere:
+    case LightKind::Disk:
+        return desc.radius > 0.f;
+    default:
+        return true;
+    }
+}
+
+bool finiteNumbers(const LightDesc& desc) {
+    const float all[] = {desc.intensity, desc.exposure,         desc.color.x, desc.color.y,
+                         desc.color.z,   desc.colorTemperature, desc.radius,  desc.width,
+                         desc.height,    desc.length,           desc.angle,   desc.diffuse,
+                         desc.specular};
+    bool finite = isFinite(desc.transform);
+    for (const float v : all)
+        finite = finite && std::isfinite(v);
+    return finite;
+}
+
+/// The rotation (or reflection) next to a transform: infinite lights have a direction but no size.
+glm::dmat3 orientation(const glm::dmat4& transform) {
+    const glm::dvec3 z = glm::normalize(glm::dvec3(transform[2]));
+    glm::dvec3 y = glm::dvec3(transform[1]);
+    y = glm::normalize(y - z * glm::dot(y, z));
+    glm::dvec3 x = glm::cross(y, z);
+    if (glm::dot(x, glm::dvec3(transform[0])) < 0.0) x = -x;
+    return {x, y, z};
+}
+
+glm::dvec3 radianceOf(const LightDesc& desc) {
+    glm::dvec3 radiance = glm::dvec3(desc.color) * double(desc.intensity) * std::exp2(double(desc.exposure));
+    if (desc.enableColorTemperature) radiance *= glm::dvec3(blackbodyColor(desc.colorTemperature));
+    if (desc.normalize) radiance /= lightSizeFactor(desc);
+    return radiance;
+}
+
+void setShape(const LightDesc& desc, gpu::LightRecord& record) {
+    switch (desc.kind) {
+    case LightKind::Rect:
+        record.size = {desc.width, desc.height};
+        break;
+    case LightKind::Cylinder:
+        record.size = {desc.radius, desc.length};
+        break;
+    case LightKind::Sphere:
+    case LightKind::Disk:
+        record.size = {desc.radius, desc.radius};
+        break;
+    case LightKind::Distant:
+        record.size = {float(std::cos(halfAngle(desc))), 0.f};
+        break;
+    case LightKind::Dome:
+        break;
+    }
+    const double sine = std::sin(0.5 * halfAngle(desc));
+    record.area = desc.kind == LightKind::Distant ? float(4.0 * Pi * sine * sine) : float(areaOf(desc));
+}
+
+} // namespace
+
+double lightSizeFactor(const LightDesc& desc) {
+    if (desc.kind == LightKind::Dome) return 1.0;
+    if (desc.kind != LightKind::Distant) return areaOf(desc);
+    const double half = halfAngle(desc), sine = std::sin(half);
+    if (half == 0.0) return 1.0;
+    return Pi * (half <= 0.5 * Pi ? sine * sine : 2.0 - sine * sine);
+}
+
+bool describeLight(const LightDesc& desc, gpu::LightRecord& record, std::string& problem) {
+    problem.clear();
+    if (!desc.visible) return false;
+    if (!finiteNumbers(desc)) {
+        problem = "a value is not finite; the light is off";
+        return false;
+    }
+    const bool infinite = desc.kind == LightKind::Dome || desc.kind == LightKind::Distant;
+    const glm::dmat3 linear = infinite ? orientation(desc.transform) : glm::dmat3(desc.transform);
+    glm::dmat4 transform(linear);
+    if (!infinite) transform[3] = desc.transform[3];
+    const glm::dmat4 inverse = glm::inverse(transform);
+    record = {};
+    record.kind = uint32_t(desc.kind);
+    record.lightToWorld = glm::mat4x3(transform);
+    record.worldToLight = glm::mat4x3(inverse);
+    if (!positiveSize(desc) || !isFinite(record.worldToLight) || !isFinite(record.lightToWorld) ||
+        glm::determinant(glm::mat3(record.lightToWorld)) == 0.f) {
+        problem = "it has no area or a singular transform; the light is off";
+        return false;
+    }
+    setShape(desc, record);
+    record.radiance = glm::vec3(glm::max(radianceOf(desc), glm::dvec3(0.0)));
+    record.texture = gpu::NO_INDEX;
+    record.diffuse = std::max(desc.diffuse, 0.f);
+    record.specular = std::max(desc.specular, 0.f);
+    if (!isFinite(glm::mat3(record.radiance, glm::vec3(record.area, 0.f, 0.f), glm::vec3(0.f)))) {
+        problem = "its radiance or area exceeds single precision; the light is off";
+        return false;
+    }
+    return record.radiance != glm::vec3(0.f) && (record.diffuse > 0.f || record.specular > 0.f);
+}
+
+double lightPower(const gpu::LightRecord& record, const glm::vec3& pictureMean, double sceneRadius) {
+    const double radiance =
+        glm::dot(glm::dvec3(record.radiance * pictureMean), glm::dvec3(0.2126, 0.7152, 0.0722)) *
+        std::max(record.diffuse, record.specular);
+    const double disk = Pi * sceneRadius * sceneRadius; // what the scene catches of parallel light
+    if (record.kind == gpu::LIGHT_DOME) return radiance * 4.0 * Pi * disk;
+    if (record.kind == gpu::LIGHT_DISTANT)
+        return radiance * (record.area > 0.f ? double(record.area) : 1.0) * disk;
+    return radiance * Pi * record.area;
+}
+
+} // namespace hipr

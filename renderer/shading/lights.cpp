@@ -1,0 +1,181 @@
+#include "renderer/shading/lights.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "renderer/shading/alias.h"
+#include "renderer/shading/dome.h"
+#include "renderer/shading/light_shape.h"
+
+namespace hipr {
+
+using gpu::LightRecord;
+
+struct LightTable::Impl {
+    struct Light {
+        LightRecord record;
+        std::optional<uint32_t> texture;
+    };
+    /// What the table knows of a texture's pixels.
+    struct Picture {
+        glm::vec3 mean{1.f};
+        DomeTable dome;
+        Buffer table;
+    };
+
+    Impl(Device& device, TextureStore& textures) : device(device), textures(textures) {}
+
+    Device& device;
+    TextureStore& textures;
+    std::map<LightId, Light> lights; ///< those that emit, as far as their description tells
+    std::map<uint32_t, Picture> pictures;
+    bool changed = true;
+    uint32_t textureVersion = 0;
+    double sceneRadius = -1.0;
+    uint32_t areaLights = 0, infiniteLights = 0;
+    Buffer records, alias;
+
+    void forget(LightId id);
+    const Picture& picture(uint32_t texture);
+    void dropPictures();
+    bool bindTexture(Light& light, LightRecord& record, glm::vec3& mean);
+    void rebuild();
+    void upload(const std::vector<LightRecord>& table, const std::vector<double>& chances);
+};
+
+void LightTable::Impl::forget(LightId id) {
+    const auto known = lights.find(id);
+    if (known == lights.end()) return;
+    if (known->second.texture) textures.release(*known->second.texture);
+    lights.erase(known);
+    changed = true;
+}
+
+const LightTable::Impl::Picture& LightTable::Impl::picture(uint32_t texture) {
+    const auto known = pictures.find(texture);
+    if (known != pictures.end()) return known->second;
+    Picture& picture = pictures[texture];
+    if (const Image* image = textures.image(texture)) {
+        picture.dome = buildDomeTable(*image);
+        picture.mean = picture.dome.mean;
+        picture.table =
+            device.createFrom(picture.dome.values.data(), picture.dome.values.size(), "light tables");
+        textures.releasePixels(texture);
+    }
+    return picture;
+}
+
+void LightTable::Impl::dropPictures() {
+    for (auto it = pictures.begin(); it != pictures.end();) {
+        const bool used = std::any_of(lights.begin(), lights.end(),
+                                      [&](const auto& entry) { return entry.second.texture == it->first; });
+        it = used ? std::next(it) : pictures.erase(it);
+    }
+}
+
+/// Points the record at its texture. Returns false when the picture is black.
+bool LightTable::Impl::bindTexture(Light& light, LightRecord& record, glm::vec3& mean) {
+    if (!light.texture) return true;
+    const Picture& known = picture(*light.texture);
+    if (!known.table) return true; // unreadable, which the texture store has told: a constant colour
+    mean = known.mean;
+    record.texture = textures.range(*light.texture).first;
+    if (record.kind == gpu::LIGHT_DOME) {
+        record.distribution = known.table.address();
+        record.distributionWidth = known.dome.width;
+        record.distributionHeight = known.dome.height;
+    }
+    return !known.dome.values.empty();
+}
+
+void LightTable::Impl::rebuild() {
+    std::vector<LightRecord> table;
+    std::vector<double> powers;
+    areaLights = infiniteLights = 0;
+    for (const bool infinite : {false, true})
+        for (auto& [id, light] : lights) {
+            const bool isInfinite =
+                light.record.kind == gpu::LIGHT_DOME || light.record.kind == gpu::LIGHT_DISTANT;
+            glm::vec3 mean(1.f);
+            LightRecord record = light.record;
+            if (isInfinite != infinite || !bindTexture(light, record, mean)) continue;
+            table.push_back(record);
+            powers.push_back(lightPower(record, mean, sceneRadius));
+            ++(infinite ? infiniteLights : areaLights);
+        }
+    double total = 0.0;
+    for (const double power : powers)
+        total += power;
+    // A tenth goes to all lights alike: a weak light may be the only one that a corner of the scene sees.
+    constexpr double Uniform = 0.1;
+    for (double& power : powers)
+        power = total > 0.0 ? (1.0 - Uniform) * power / total + Uniform / double(powers.size())
+                            : 1.0 / double(powers.size());
+    upload(table, powers);
+}
+
+void LightTable::Impl::upload(const std::vector<LightRecord>& table, const std::vector<double>& chances) {
+    std::vector<LightRecord> out = table;
+    for (size_t i = 0; i < out.size(); ++i)
+        out[i].selectPdf = float(chances[i]);
+    const std::vector<gpu::AliasEntry> entries = buildAliasTable(chances);
+    records = device.createFrom(out.data(), out.size(), "light tables");
+    alias = device.createFrom(entries.data(), entries.size(), "light tables");
+}
+
+LightTable::LightTable(Device& device, TextureStore& textures)
+    : _impl(std::make_unique<Impl>(device, textures)) {}
+LightTable::~LightTable() = default;
+
+void LightTable::set(LightId id, const LightDesc& desc) {
+    Impl::Light light;
+    std::string problem;
+    const bool emits = describeLight(desc, light.record, problem);
+    if (!problem.empty() && _impl->device.messages())
+        _impl->device.messages()(Severity::Warning, desc.name, problem);
+    const bool takesTexture = desc.kind == LightKind::Dome || desc.kind == LightKind::Rect;
+    const WrapMode wrapS = desc.kind == LightKind::Dome ? WrapMode::Repeat : WrapMode::Clamp;
+    if (emits && takesTexture && !desc.texture.empty())
+        light.texture =
+            _impl->textures.acquire({desc.texture, "auto", wrapS, WrapMode::Clamp, true}, desc.name);
+    _impl->forget(id); // after the acquire: a texture in both stays loaded
+    if (!emits) return;
+    light.record.light = uint32_t(id);
+    _impl->lights[id] = light;
+    _impl->changed = true;
+}
+
+void LightTable::remove(LightId id) {
+    _impl->forget(id);
+}
+
+bool LightTable::commit(const glm::vec3& boundsMin, const glm::vec3& boundsMax) {
+    const double radius = 0.5 * double(glm::length(glm::max(boundsMax - boundsMin, glm::vec3(0.f))));
+    const double sceneRadius =
+        radius > 0.0 && std::isfinite(radius) ? radius : 1.0; // an empty scene has some size too
+    const bool same = !_impl->changed && sceneRadius == _impl->sceneRadius &&
+                      _impl->textureVersion == _impl->textures.version();
+    if (same) return false;
+    _impl->sceneRadius = sceneRadius;
+    _impl->textureVersion = _impl->textures.version();
+    _impl->dropPictures();
+    _impl->rebuild();
+    _impl->changed = false;
+    return true;
+}
+
+uint32_t LightTable::count() const {
+    return _impl->areaLights + _impl->infiniteLights;
+}
+
+void LightTable::describe(gpu::SceneRecord& scene) const {
+    scene.lights = _impl->records.address();
+    scene.lightAlias = _impl->alias.address();
+    scene.lightCount = count();
+    scene.areaLightCount = _impl->areaLights;
+    scene.infiniteLightCount = _impl->infiniteLights;
+}
+
+} // namespace hipr
