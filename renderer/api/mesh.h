@@ -65,10 +65,16 @@ struct TriangleMesh {
 
 /// Validates, refines (OpenSubdiv) and triangulates. Never throws on bad data: broken faces, points and
 /// primvars are dropped with one message each that names `desc.name`. Returns a mesh that may be empty.
+///
+/// Normals follow UsdGeomMesh: with scheme None the primvar `normals` if it is there, else facets; Bilinear is
+/// faceted; CatmullClark and Loop have the limit surface's normals when refined (split along creases that are still
+/// sharp at the last level) and angle-weighted vertex normals at level 0. Refined CatmullClark and Loop vertices lie on
+/// the limit surface. Loop needs triangles: a mesh with other faces is refined by CatmullClark. Levels that would
+/// give more than 67 million triangles are lowered.
 std::shared_ptr<const TriangleMesh> buildTriangleMesh(const MeshDesc& desc, const MessageSink& messages);
 
-/// New positions for an unchanged topology: cheaper than buildTriangleMesh only for scheme None, where
-/// triangles and primvars are shared; normals are recomputed unless authored.
+/// New positions for an unchanged topology and unchanged primvars. Cheaper than buildTriangleMesh only for scheme None
+/// without holes and authored normals, where triangles and primvars are taken from `old`.
 std::shared_ptr<const TriangleMesh> updatePoints(const TriangleMesh& old, const MeshDesc& desc,
                                                  const MessageSink& messages);
 
