@@ -12,6 +12,10 @@ public:
     DeviceTraversal(Kernel nearest, Kernel occluded)
         : _nearest(std::move(nearest)), _occluded(std::move(occluded)) {}
 
+    void warm() const override {
+        _nearest.warm();
+        _occluded.warm();
+    }
     bool onHost() const override { return false; }
     void nearest(const TraceQueue& queue) override;
     void occluded(const TraceQueue& queue) override;

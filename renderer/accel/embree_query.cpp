@@ -10,8 +10,8 @@ namespace {
 
 /// Embree's distances differ from canonical ones by rounding; its interval is kept this much longer.
 constexpr float LOOSENED = 1.0f + 8.0f * gpu::BOX_ALLOWANCE;
-/// Radius of "next to an edge", in allowances of boxRay.
-constexpr float NEIGHBOURHOOD = 4.0f;
+/// Radius in which neighbours are looked for, in allowances.
+constexpr float NEIGHBOURHOOD = 2.0f * gpu::EDGE_RADIUS;
 
 /// One ray on its way; Embree hands the context through to every callback.
 struct Query {
@@ -55,20 +55,8 @@ bool Query::enter(uint32_t index) {
     direction = gpu::mapDirection(record.worldToObject, ray.direction);
     triangleRay = gpu::triangleRay(origin, direction);
     box = gpu::boxRay(origin, direction, record.extent);
-    allowance = (gpu::largest(origin) + record.extent) * gpu::BOX_ALLOWANCE;
+    allowance = gpu::rayAllowance(origin, record.extent);
     return true;
-}
-
-/// Whether the ray passes a triangle's edge so closely that rounding decides on which side.
-bool passesBesideEdge(const Query& q, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, float u,
-                      float v) {
-    const glm::vec3 ab = b - a, bc = c - b, ca = a - c;
-    const float longest = std::max(glm::dot(ab, ab), std::max(glm::dot(bc, bc), glm::dot(ca, ca)));
-    const float weight = std::min(u, std::min(v, 1.0f - u - v));
-    const float distance =
-        weight * glm::dot(glm::cross(ab, ca), q.direction); // times longest edge and |direction|
-    const float radius = NEIGHBOURHOOD * q.allowance;
-    return distance * distance <= radius * radius * longest * glm::dot(q.direction, q.direction);
 }
 
 /// Tests one triangle of the current instance; true when it is the best hit so far. `proposed` is Embree's
@@ -84,7 +72,7 @@ bool Query::consider(const GeometryView& g, uint32_t primitive, float proposed) 
     if (!(t > ray.tMin) || !gpu::before(t, instance, primitive, best.t, best.instance, best.primitive))
         return false;
     best = {instance, primitive, t, u, v};
-    besideEdge = passesBesideEdge(*this, a, b, c, u, v);
+    besideEdge = gpu::besideEdge(direction, allowance, a, b, c, u, v);
     return true;
 }
 
@@ -152,8 +140,7 @@ bool nearInstance(RTCPointQueryFunctionArguments* args) {
     const auto& n = *static_cast<Neighbourhood*>(args->userPtr);
     Query& q = *n.query;
     if (!q.enter(args->primID)) return false;
-    RTCPointQuery point =
-        around(q.triangleRay.origin + n.t * q.direction, 2.0f * NEIGHBOURHOOD * q.allowance);
+    RTCPointQuery point = around(q.triangleRay.origin + n.t * q.direction, NEIGHBOURHOOD * q.allowance);
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     rtcPointQuery(q.scene->geometryOf(args->primID).scene, &point, &context, nearTriangle, &q);
@@ -163,8 +150,8 @@ bool nearInstance(RTCPointQueryFunctionArguments* args) {
 /// Considers every triangle around distance t.
 void considerAround(Query& q, float t) {
     const glm::vec3 p = q.ray.origin + t * q.ray.direction;
-    const float reach = gpu::largest(q.ray.origin) + q.scene->table().extent;
-    RTCPointQuery point = around(p, 2.0f * NEIGHBOURHOOD * gpu::BOX_ALLOWANCE * reach);
+    const float radius = NEIGHBOURHOOD * gpu::rayAllowance(q.ray.origin, q.scene->table().extent);
+    RTCPointQuery point = around(p, radius);
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     Neighbourhood n{&q, t};

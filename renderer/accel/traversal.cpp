@@ -4,12 +4,13 @@
 
 #include "renderer/accel/bvh_traversal.h"
 #include "renderer/accel/embree_traversal.h"
+#include "renderer/accel/ray_query_traversal.h"
 
 namespace hipr {
 
 std::unique_ptr<Traversal> createTraversal(TraversalKind kind, Device& device) {
     if (kind == TraversalKind::Bvh) return createBvhTraversal(device);
-    if (kind == TraversalKind::RayQuery) throw std::runtime_error("this build has no ray query traversal");
+    if (kind == TraversalKind::RayQuery) return createRayQueryTraversal(device);
     if (!device.hostMemory())
         throw std::runtime_error(
             "Embree traces on the host and needs a device whose memory the host can read (a "
@@ -19,7 +20,8 @@ std::unique_ptr<Traversal> createTraversal(TraversalKind kind, Device& device) {
 }
 
 TraversalKind defaultTraversal(const Device& device) {
-    return device.info().cpu && device.hostMemory() ? TraversalKind::Embree : TraversalKind::Bvh;
+    if (device.info().cpu) return device.hostMemory() ? TraversalKind::Embree : TraversalKind::Bvh;
+    return device.info().rayQuery ? TraversalKind::RayQuery : TraversalKind::Bvh;
 }
 
 } // namespace hipr

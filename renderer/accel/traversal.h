@@ -47,6 +47,9 @@ public:
     /// For SceneRecord::bvh; 0 when the traversal needs none.
     virtual VkDeviceAddress sceneAddress() const { return 0; }
 
+    /// Finishes compiling kernels now (blocking) instead of in their first dispatch.
+    virtual void warm() const {}
+
     /// Host traversals run between submissions on mapped queues; device ones record into a command buffer.
     virtual bool onHost() const = 0;
     virtual void nearest(const TraceQueue& queue) = 0;

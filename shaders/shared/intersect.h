@@ -25,11 +25,14 @@
 HIPR_SHARED_BEGIN
 #ifdef __cplusplus
 using std::abs;
+using glm::cross;
+using glm::dot;
 using glm::max;
 using glm::min;
 #endif
 
 HIPR_CONST float BOX_ALLOWANCE = 9.5367431640625e-7f; // 2^-20: 16 rounding errors of the largest coordinate involved
+HIPR_CONST float EDGE_RADIUS = 4.0f;                  // "beside an edge", in allowances
 HIPR_CONST float AXIS_RATIO = 1e-9f;                  // direction components below this share of the largest are lifted to it
 
 // A ray prepared for slab tests: plane p is met at p * inverse + bias.
@@ -79,10 +82,16 @@ HIPR_INLINE float liftedInverse(float d, float least) {
     return d < 0.0f ? -inverse : inverse;
 }
 
+// What rounding may move a ray by, as a length in the ray's space; `extent` is the largest |coordinate| of what it meets.
+HIPR_INLINE float rayAllowance(vec3 origin, float extent) {
+    HIPR_PRECISE float allowance = (largest(origin) + extent) * BOX_ALLOWANCE;
+    return allowance;
+}
+
 // `extent` is the largest |coordinate| of the boxes to be tested.
 HIPR_INLINE BoxRay boxRay(vec3 origin, vec3 direction, float extent) {
     HIPR_PRECISE float least = largest(direction) * AXIS_RATIO;
-    HIPR_PRECISE float allowance = (largest(origin) + extent) * BOX_ALLOWANCE;
+    HIPR_PRECISE float allowance = rayAllowance(origin, extent);
     HIPR_PRECISE BoxRay r;
     r.inverse.x = liftedInverse(direction.x, least);
     r.inverse.y = liftedInverse(direction.y, least);
@@ -161,6 +170,17 @@ HIPR_INLINE bool canonicalHit(TriangleRay r, BoxRay box, vec3 a, vec3 b, vec3 c,
     boxExit = min(boxExit, exit);
     t = min(max(t, boxEntry), boxExit);
     return boxEntry <= boxExit;
+}
+
+// Whether a hit at u, v lies so close to an edge of its triangle that another triangle may own the same point. For
+// traversals that take their candidates from elsewhere and must then look around; errs on the side of yes.
+HIPR_INLINE bool besideEdge(vec3 direction, float allowance, vec3 a, vec3 b, vec3 c, float u, float v) {
+    vec3 ab = b - a, bc = c - b, ca = a - c;
+    float longest = max(dot(ab, ab), max(dot(bc, bc), dot(ca, ca)));
+    float weight = min(u, min(v, 1.0f - u - v));
+    float distance = weight * dot(cross(ab, ca), direction); // times the longest edge and |direction|
+    float radius = EDGE_RADIUS * allowance;
+    return distance * distance <= radius * radius * longest * dot(direction, direction);
 }
 
 // Whether a hit comes before another: nearer, or as near with smaller ids.

@@ -1,0 +1,128 @@
+#include "renderer/accel/ray_query_traversal.h"
+
+#include <stdexcept>
+#include <string>
+
+#include "hipr_accel_kernels.h"
+#include "renderer/accel/device_instances.h"
+#include "renderer/accel/device_traversal.h"
+#include "renderer/accel/geometry_bounds.h"
+#include "renderer/accel/ray_query_structures.h"
+
+namespace hipr {
+namespace {
+
+struct RayQueryGeometry {
+    GeometryView view{};
+    Bounds bounds;
+    std::unique_ptr<RayQueryStructure> structure; ///< null: no triangles
+    bool changed = false;
+};
+
+VkAccelerationStructureInstanceKHR deviceInstance(const gpu::InstanceRecord& record,
+                                                  const gpu::BvhInstance& box, VkDeviceAddress structure) {
+    VkAccelerationStructureInstanceKHR out{};
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 4; ++column)
+            out.transform.matrix[row][column] = record.objectToWorld[column][row];
+    out.mask = box.mask;
+    out.flags = VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR;
+    out.accelerationStructureReference = box.mask ? structure : 0; // 0: inactive
+    return out;
+}
+
+class RayQueryTraversal final : public DeviceTraversal {
+public:
+    explicit RayQueryTraversal(Device& device)
+        : DeviceTraversal(Kernel(device, spirv::rayQueryNearest_spv, spirv::rayQueryNearest_spv_size,
+                                 sizeof(gpu::TracePush), "rayQueryNearest", true),
+                          Kernel(device, spirv::rayQueryOccluded_spv, spirv::rayQueryOccluded_spv_size,
+                                 sizeof(gpu::TracePush), "rayQueryOccluded", true)),
+          _device(device), _functions(device) {}
+
+    void setGeometry(uint32_t slot, const GeometryView* view) override {
+        if (slot >= _geometries.size()) _geometries.resize(slot + 1);
+        _instancesChanged = true; // boxes of instances follow their geometry
+        std::unique_ptr<RayQueryGeometry>& g = _geometries[slot];
+        if (!view) {
+            g.reset();
+            return;
+        }
+        if (!g) g = std::make_unique<RayQueryGeometry>();
+        const bool same = view->sameTopology && (!g->changed || g->view.sameTopology);
+        g->view = *view;
+        g->view.sameTopology = same; // as what was built last, not as what was set last
+        g->changed = true;
+    }
+
+    void setInstances(const std::vector<gpu::InstanceRecord>& instances) override {
+        _records = instances;
+        _instancesChanged = true;
+    }
+
+    void commit() override {
+        std::vector<RayQueryStructure*> builds;
+        for (const auto& g : _geometries)
+            if (g && g->changed) planGeometry(*g, builds);
+        buildStructures(_device, builds);
+        if (_instancesChanged) buildTop();
+        _instancesChanged = false;
+    }
+
+    VkDeviceAddress sceneAddress() const override { return _instances.address(); }
+
+private:
+    void planGeometry(RayQueryGeometry& g, std::vector<RayQueryStructure*>& builds) {
+        g.changed = false;
+        g.bounds = geometryBounds(g.view);
+        if (g.view.triangleCount == 0) {
+            g.structure.reset();
+            return;
+        }
+        if (!g.structure) g.structure = std::make_unique<RayQueryStructure>(_device, _functions);
+        g.structure->planTriangles(g.view);
+        builds.push_back(g.structure.get());
+    }
+
+    const RayQueryGeometry* geometry(uint32_t slot) const {
+        return slot < _geometries.size() ? _geometries[slot].get() : nullptr;
+    }
+
+    void buildTop() {
+        if (_records.size() >= 1u << 24)
+            throw std::runtime_error(std::to_string(_records.size()) +
+                                     " instances are too many for ray query");
+        const InstanceTable table = makeInstanceTable(_records, [this](uint32_t slot) {
+            const RayQueryGeometry* g = geometry(slot);
+            return g ? g->bounds : Bounds{};
+        });
+        std::vector<VkAccelerationStructureInstanceKHR> instances(_records.size());
+        for (size_t i = 0; i < _records.size(); ++i) {
+            const RayQueryGeometry* g = geometry(_records[i].geometry);
+            instances[i] = deviceInstance(_records[i], table.records[i],
+                                          g && g->structure ? g->structure->address() : 0);
+        }
+        const Buffer input = _device.createFrom(instances.data(), instances.size(), "acceleration scratch");
+        _top.planInstances(input.address(), uint32_t(instances.size()));
+        buildStructures(_device, {&_top});
+        _nearest.setTlas(_top.handle());
+        _occluded.setTlas(_top.handle());
+        _instances.send(_device, table, {});
+    }
+
+    Device& _device;
+    RayQueryFunctions _functions;
+    std::vector<std::unique_ptr<RayQueryGeometry>> _geometries; ///< by slot; null: free
+    std::vector<gpu::InstanceRecord> _records;
+    RayQueryStructure _top{_device, _functions};
+    DeviceInstances _instances;
+    bool _instancesChanged = true;
+};
+
+} // namespace
+
+std::unique_ptr<Traversal> createRayQueryTraversal(Device& device) {
+    return std::make_unique<RayQueryTraversal>(device);
+}
+
+} // namespace hipr
