@@ -1,0 +1,134 @@
+// The picture at N samples is the same to the last bit, however it came about.
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "testenv/render/scene_kit.h"
+
+using namespace hipr;
+using namespace hipr::test;
+
+namespace {
+
+/// A bit of everything: instances, glossy and glass, a veil that lets rays through, area light and dome.
+void build(Stage& stage) {
+    stage.add(quadMesh(), matte({0.6f, 0.7f, 0.8f}),
+              {glm::mat4x3({9, 0, 0}, {0, 0, -9}, {0, 9, 0}, {0, -1, 0})});
+    MaterialDesc plastic;
+    plastic.diffuseColor = constantColor({0.7f, 0.3f, 0.1f});
+    plastic.roughness = constantValue(0.3f);
+    stage.add(sphereMesh(16), plastic, {translation(-1.2f, 0, 0), translation(1.2f, 0, -1.f)});
+    MaterialDesc glass;
+    glass.opacity = constantValue(0.f);
+    glass.roughness = constantValue(0.05f);
+    stage.add(sphereMesh(16), glass, {[] {
+                  auto m = scaling(0.5f, 0.5f, 0.5f);
+                  m[3] = {0, -0.5f, 1.5f};
+                  return m;
+              }()});
+    MaterialDesc veil = matte({0.2f, 0.6f, 0.2f});
+    veil.opacity = constantValue(0.5f);
+    veil.opacityMode = OpacityMode::Presence;
+    stage.add(quadMesh(), veil, {[] {
+                  auto m = scaling(2, 2, 1);
+                  m[3] = {1.f, 0.5f, 1.f};
+                  return m;
+              }()});
+    LightDesc lamp;
+    lamp.kind = LightKind::Sphere;
+    lamp.radius = 0.4f;
+    lamp.intensity = 20.f;
+    lamp.transform = glm::translate(glm::dmat4(1), glm::dvec3(2, 3, 2));
+    stage.add(lamp);
+    LightDesc dome;
+    dome.kind = LightKind::Dome;
+    dome.intensity = 0.2f;
+    stage.add(dome);
+    stage.edit.setCamera(lookAt({0, 1, 6}, {0, 0, 0}, 45, 80.0 / 60.0));
+    stage.film(80, 60);
+}
+
+Settings fewSamples() {
+    Settings settings;
+    settings.samples = 6;
+    return settings;
+}
+
+ColorPicture reference() {
+    static const ColorPicture picture = [] {
+        Stage stage(fewSamples());
+        build(stage);
+        stage.render();
+        save(stage.color(), "determinism");
+        return stage.color();
+    }();
+    return picture;
+}
+
+} // namespace
+
+TEST(Determinism, BatchAndTileSizesDoNotMatter) {
+    for (const RendererInternals& internals :
+         {RendererInternals{8, 500}, {16, 3000}, {32, 1 << 16}, {64, 1 << 15}, {16, 1 << 16}}) {
+        Stage stage(fewSamples(), internals);
+        build(stage);
+        stage.render();
+        EXPECT_TRUE(sameBits(reference(), stage.color()))
+            << internals.tileSize << " " << internals.batchPaths;
+    }
+}
+
+TEST(Determinism, AllTraversalsAgree) {
+    for (const char* traversal : {"embree", "bvh", "rayquery"}) {
+        Settings settings = fewSamples();
+        settings.traversal = traversal;
+        Stage stage(settings);
+        if (!stage.messages().empty()) GTEST_SKIP() << traversal << ": " << stage.messages()[0].text;
+        build(stage);
+        stage.render();
+        EXPECT_TRUE(sameBits(reference(), stage.color())) << traversal;
+    }
+}
+
+TEST(Determinism, MoreSamplesLaterAreTheSameSamples) {
+    Settings settings = fewSamples();
+    settings.samples = 2;
+    Stage stage(settings);
+    build(stage);
+    stage.render();
+    EXPECT_FALSE(sameBits(reference(), stage.color()));
+    stage.settings(fewSamples());
+    EXPECT_EQ(stage.renderer->progress().samplesDone, 2u); // nothing was thrown away
+    stage.render();
+    EXPECT_TRUE(sameBits(reference(), stage.color()));
+}
+
+TEST(Determinism, SeedChangesNoiseOnly) {
+    Settings settings = fewSamples();
+    settings.seed = 1;
+    Stage stage(settings);
+    build(stage);
+    stage.render();
+    EXPECT_FALSE(sameBits(reference(), stage.color()));
+    EXPECT_NEAR(mean(stage.color()).y, mean(reference()).y, 0.05f * mean(reference()).y);
+}
+
+TEST(Determinism, CancelLosesNothing) {
+    Stage stage(fewSamples(), {16, 3000});
+    build(stage);
+    stage.renderer->commit(stage.edit);
+    std::atomic<bool> done{false};
+    std::thread nuisance([&] {
+        while (!done) {
+            stage.renderer->cancel();
+            std::this_thread::sleep_for(std::chrono::milliseconds(3));
+            stage.renderer->resume();
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+    });
+    while (!stage.renderer->progress().converged)
+        stage.renderer->renderBatch();
+    done = true;
+    nuisance.join();
+    EXPECT_TRUE(sameBits(reference(), stage.color()));
+}

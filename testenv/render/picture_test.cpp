@@ -1,0 +1,206 @@
+// Pictures whose values are known: white furnaces, AOVs of flat shapes, the camera light.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "testenv/render/scene_kit.h"
+
+using namespace hipr;
+using namespace hipr::test;
+
+namespace {
+
+LightDesc dome(float intensity = 1.f) {
+    LightDesc light;
+    light.name = "/dome";
+    light.kind = LightKind::Dome;
+    light.intensity = intensity;
+    return light;
+}
+
+} // namespace
+
+TEST(Picture, QuadAndSphereUnderARectLight) {
+    Settings settings;
+    settings.samples = 64;
+    Stage stage(settings);
+    stage.add(quadMesh(), matte({0.7f, 0.7f, 0.7f}),
+              {glm::mat4x3({8, 0, 0}, {0, 0, -8}, {0, 8, 0}, {0, -1, 0})});
+    MaterialDesc plastic;
+    plastic.diffuseColor = constantColor({0.8f, 0.2f, 0.1f});
+    plastic.roughness = constantValue(0.2f);
+    stage.add(sphereMesh(), plastic);
+    LightDesc light;
+    light.kind = LightKind::Rect;
+    light.transform = glm::translate(glm::dmat4(1), glm::dvec3(2, 4, 2)) *
+                      glm::rotate(glm::dmat4(1), -glm::half_pi<double>(), glm::dvec3(1, 0, 0));
+    light.intensity = 10.f;
+    light.width = light.height = 2.f;
+    stage.add(light);
+    stage.edit.setCamera(lookAt({0, 1.5, 6}, {0, 0, 0}));
+    stage.film(256, 256);
+    stage.render();
+    const ColorPicture picture = stage.color();
+    save(picture, "quad_and_sphere");
+    // The lit side of the sphere is red, the ground behind it is grey and brighter than its shadow.
+    const glm::vec4 lit = picture.at(138, 170), ground = picture.at(200, 60);
+    EXPECT_GT(lit.x, 2 * lit.y);
+    EXPECT_NEAR(ground.x, ground.y, 0.15f * ground.x);
+    EXPECT_GT(ground.x, 0.05f);
+    EXPECT_EQ(picture.at(128, 255).w, 0.f);
+    EXPECT_EQ(picture.at(128, 128).w, 1.f);
+}
+
+// Inside a closed white sphere whose own glow is the only light, any path adds up to emission / (1 - albedo).
+TEST(Picture, ClosedFurnaceAddsUpTheSeries) {
+    Settings settings;
+    settings.samples = 256;
+    settings.maxDepth = 64;
+    Stage stage(settings);
+    MaterialDesc glow = matte(glm::vec3(0.5f));
+    glow.emissiveColor = constantColor(glm::vec3(0.5f));
+    stage.add(sphereMesh(), glow);
+    stage.add(dome(0.f));
+    stage.edit.setCamera(lookAt({0, 0, 0.2}, {0, 0, -1}));
+    stage.film(16, 16);
+    stage.render();
+    const glm::vec4 value = mean(stage.color());
+    EXPECT_NEAR(value.x, 1.f, 0.005f);
+    EXPECT_NEAR(value.y, 1.f, 0.005f);
+    EXPECT_EQ(value.w, 1.f);
+}
+
+// A white object in a white sky cannot be seen.
+TEST(Picture, WhiteFurnace) {
+    Settings settings;
+    settings.samples = 256;
+    settings.maxDepth = 64;
+    for (int kind = 0; kind < 3; ++kind) {
+        Stage stage(settings);
+        MaterialDesc material = matte(glm::vec3(1.f));
+        if (kind == 1)
+            material.specularColor = constantColor(glm::vec3(0.3f)), material.roughness = constantValue(0.4f);
+        if (kind == 2) material.metallic = constantValue(1.f), material.useSpecularWorkflow = false;
+        stage.add(sphereMesh(), material);
+        stage.add(dome());
+        stage.edit.setCamera(lookAt({0, 0, 4}, {0, 0, 0}));
+        stage.film(32, 32);
+        stage.render();
+        const glm::vec4 value = mean(stage.color());
+        // A rough metal is a single-scattering lobe and may lose a little; nothing may gain.
+        EXPECT_NEAR(value.x, 1.f, kind == 2 ? 0.06f : 0.01f) << kind;
+        EXPECT_LT(value.x, 1.01f) << kind;
+    }
+}
+
+TEST(Picture, RouletteAndDepthKeepTheMean) {
+    glm::vec4 means[2];
+    for (int i = 0; i < 2; ++i) {
+        Settings settings;
+        settings.samples = 512;
+        settings.maxDepth = 32;
+        settings.rouletteDepth = i == 0 ? 1 : 1024;
+        Stage stage(settings);
+        MaterialDesc glow = matte(glm::vec3(0.6f, 0.3f, 0.1f));
+        glow.emissiveColor = constantColor(glm::vec3(1.f));
+        stage.add(sphereMesh(), glow);
+        stage.edit.setCamera(lookAt({0, 0, 0.2}, {0, 0, -1}));
+        stage.add(dome(0.f));
+        stage.film(16, 16);
+        stage.render();
+        means[i] = mean(stage.color());
+    }
+    EXPECT_NEAR(means[0].x, means[1].x, 0.01f * means[1].x);
+    EXPECT_NEAR(means[0].x, 1.f / 0.4f, 0.02f);
+    EXPECT_NEAR(means[0].y, 1.f / 0.7f, 0.02f);
+}
+
+// One bounce: a plane under a dome has radiance albedo * L whatever the direction.
+TEST(Picture, DirectLightOnlyAtDepthOne) {
+    Settings settings;
+    settings.samples = 64;
+    settings.maxDepth = 1;
+    Stage stage(settings);
+    stage.add(quadMesh(), matte(glm::vec3(0.25f)), {scaling(10, 10, 1)});
+    stage.add(dome(2.f));
+    stage.edit.setCamera(lookAt({0, 0, 4}, {0, 0, 0}));
+    stage.film(16, 16);
+    stage.render();
+    EXPECT_NEAR(mean(stage.color()).y, 0.5f, 0.005f);
+}
+
+TEST(Picture, PresenceLetsLightAndSightThrough) {
+    Settings settings;
+    settings.samples = 256;
+    Stage stage(settings);
+    stage.add(quadMesh(), matte(glm::vec3(0.5f)), {scaling(20, 20, 1)});
+    MaterialDesc veil = matte(glm::vec3(0.f));
+    veil.opacity = constantValue(0.25f);
+    veil.opacityMode = OpacityMode::Presence;
+    stage.add(quadMesh(), veil, {[] {
+                  auto m = scaling(200, 200, 1);
+                  m[3].z = 1.f;
+                  return m;
+              }()});
+    LightDesc sun;
+    sun.kind = LightKind::Distant;
+    sun.normalize = true;
+    sun.angle = 0.f;
+    sun.intensity = glm::pi<float>();
+    stage.add(sun);
+    stage.edit.setCamera(lookAt({0, 0, 4}, {0, 0, 0}));
+    stage.film(16, 16);
+    stage.render();
+    EXPECT_NEAR(mean(stage.color()).y, 0.5f * 0.75f * 0.75f, 0.01f); // sunlight and view cross the black veil
+}
+
+TEST(Picture, CameraLightWhenThereIsNone) {
+    Settings settings;
+    settings.samples = 64;
+    Stage stage(settings);
+    stage.add(quadMesh(), matte(glm::vec3(0.5f)), {scaling(10, 10, 1)});
+    stage.edit.setCamera(lookAt({0, 0, 4}, {0, 0, 0}));
+    stage.film(16, 16);
+    stage.render();
+    EXPECT_NEAR(mean(stage.color()).y, 0.5f, 0.01f);
+    ASSERT_EQ(stage.messages().size(), 1u);
+    EXPECT_EQ(stage.messages()[0].severity, Severity::Info);
+
+    LightDesc light; // off: the camera light stays; on: it goes
+    light.kind = LightKind::Dome;
+    light.visible = false;
+    const LightId id = stage.add(light);
+    stage.render();
+    EXPECT_NEAR(mean(stage.color()).y, 0.5f, 0.01f);
+    light.visible = true;
+    stage.edit.setLight(id, light);
+    stage.render();
+    EXPECT_NEAR(mean(stage.color()).y, 0.5f, 0.01f); // 0.5 * dome of 1
+    settings.enableSceneLights = false;
+    stage.settings(settings);
+    stage.render();
+    EXPECT_NEAR(mean(stage.color()).y, 0.5f, 0.01f);
+    EXPECT_EQ(stage.messages().size(), 1u);
+}
+
+TEST(Picture, FireflyClampOnlyTouchesIndirectLight) {
+    glm::vec4 means[2];
+    for (int i = 0; i < 2; ++i) {
+        Settings settings;
+        settings.samples = 64;
+        settings.fireflyClamp = i ? 1e-6f : 0.f;
+        Stage stage(settings);
+        stage.add(sphereMesh(), matte(glm::vec3(0.8f)));
+        stage.add(quadMesh(), matte(glm::vec3(0.8f)), {[] {
+                      auto m = scaling(9, 9, 1);
+                      m[3].z = -1.f;
+                      return m;
+                  }()});
+        stage.add(dome());
+        stage.edit.setCamera(lookAt({0, 0, 4}, {0, 0, 0}));
+        stage.film(16, 16);
+        stage.render();
+        means[i] = mean(stage.color());
+    }
+    EXPECT_LT(means[1].y, 0.98f * means[0].y);
+    EXPECT_GT(means[1].y, 0.5f * means[0].y);
+}
