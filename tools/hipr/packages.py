@@ -50,6 +50,7 @@ PACKAGES = (
     Package("libvulkan-dev", "Vulkan, the device interface"),
     Package("mesa-vulkan-drivers", "lavapipe: Vulkan on a plain CPU, with ray queries and float atomics", minimum="25"),
     Package("libembree-dev", "ray traversal on CPU devices"),
+    Package("libtbb-dev", "parallel loops in the renderer"),
     Package("libopenimageio-dev", "reads textures, writes EXR and PNG"),
     Package("openimageio-tools", "names the programs that OpenImageIO's CMake files refer to"),
     Package("libopencolorio-dev", "colour spaces and view transforms"),
@@ -128,14 +129,10 @@ def ensure(group: str, log: Path, *, allowed: bool = True) -> None:
     options = ["-o", "Dpkg::Use-Pty=0", "-o", "Acquire::Retries=3", "-o", "DPkg::Lock::Timeout=300"]
     release = _add_backports(prefix, log) if any(package.minimum for package in lacking) else ""
     run("Reading the package lists", [*prefix, "apt-get", *options, "update"], log, env=env)
-    # Those from backports go first and alone: `-t` would take everything else from there too.
-    from_backports = [package.name for package in lacking if package.minimum and release]
-    others = [name for name in names if name not in from_backports]
-    if from_backports:
-        run("Installing packages from backports",
-            [*prefix, *install, *options, "-t", release, *from_backports], log, env=env)
-    if others:
-        run("Installing packages", [*prefix, *install, *options, *others], log, env=env)
+    # One transaction, and `/release` rather than `-t`: that takes from backports only what these few packages need.
+    run("Installing packages",
+        [*prefix, *install, *options, *(f"{package.name}/{release}" if package.minimum and release else package.name
+                                        for package in lacking)], log, env=env)
     still = missing(group)
     if still:
         raise HiprError(f"After the installation these are still missing or too old: "

@@ -12,7 +12,8 @@ macro(install)
     elseif("${ARGN}" MATCHES "include/pxr|lib/usd;|plugin/usd;")
         # pxr.h and the two files at the top that include all plugInfo.json below them
         set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME core)
-    elseif(";${HIPR_CORE_LIBRARIES};" MATCHES ";${hipr_here};" AND NOT "${ARGN}" MATCHES "lib/python")
+    elseif("${ARGV0}" STREQUAL "FILES" AND ";${HIPR_CORE_LIBRARIES};" MATCHES ";${hipr_here};"
+           AND NOT "${ARGN}" MATCHES "lib/python")
         set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME core)
     endif()
     _install(${ARGN})
