@@ -29,7 +29,8 @@ TEST(Robustness, ACameraThatCannotBeInverted) {
     stage.edit.setCamera(camera);
     stage.render();
     stage.render();
-    ASSERT_EQ(std::count_if(stage.messages().begin(), stage.messages().end(),
+    const std::vector<Message> messages = stage.messages();
+    EXPECT_EQ(std::count_if(messages.begin(), messages.end(),
                             [](const Message& m) { return m.severity == Severity::Error; }),
               1);
     stage.edit.setCamera(lookAt({0, 0, 4}, {0, 0, 0}));
