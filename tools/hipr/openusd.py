@@ -100,14 +100,17 @@ class Builder:
             return
         crate = self._fetch_crate()
         say("Unpacking and patching OpenUSD's source")
-        shutil.rmtree(source, ignore_errors=True)
-        unpack_crate(crate, source)
-        # The crate's authors removed usdview's icons; the folder is installed all the same.
-        (source / "pxr/usdImaging/usdviewq/icons").mkdir(exist_ok=True)
+        draft = self.work / "source.draft"
+        shutil.rmtree(draft, ignore_errors=True)
+        unpack_crate(crate, draft)
         try:
-            openusd_patches.apply_all(source)
+            openusd_patches.apply_all(draft)
         except openusd_patches.PatchError as error:
             raise HiprError(f"Patching OpenUSD's source failed: {error}") from error
+        update_tree(draft, source)
+        shutil.rmtree(draft)
+        # The crate's authors removed usdview's icons; the folder is installed all the same.
+        (source / "pxr/usdImaging/usdviewq/icons").mkdir(exist_ok=True)
         write_json(self.work / "source.json", inputs)
 
     def _fetch_crate(self) -> Path:
@@ -244,7 +247,6 @@ def unpack_crate(crate: Path, target: Path) -> None:
                 path.parent.mkdir(parents=True, exist_ok=True)
                 with archive.extractfile(member) as data, path.open("wb") as out:
                     shutil.copyfileobj(data, out)
-                os.utime(path, (member.mtime, member.mtime))  # so that unpacking again rebuilds nothing
 
 
 def unpack_tbb(wheel: Path, target: Path) -> None:
@@ -257,6 +259,18 @@ def unpack_tbb(wheel: Path, target: Path) -> None:
                 path = target / inner
                 path.parent.mkdir(parents=True, exist_ok=True)
                 path.write_bytes(archive.read(name))
+
+
+def update_tree(source: Path, target: Path) -> None:
+    """Makes target equal to source without touching a file that is equal already, so that only what changed is built
+    again after a change of the patches."""
+    wanted = {path.relative_to(source) for path in source.rglob("*") if path.is_file()}
+    for path in [path for path in target.rglob("*") if path.is_file()]:
+        if path.relative_to(target) not in wanted:
+            path.unlink()
+    for path in sorted(wanted):
+        (target / path).parent.mkdir(parents=True, exist_ok=True)
+        copy_if_different(source / path, target / path)
 
 
 def make_relocatable(target: Path, work: Path) -> None:

@@ -66,6 +66,19 @@ HIPR_WEAK void* (*__MALLOC_HOOK_VOLATILE __memalign_hook)(size_t __alignment, si
 HIPR_WEAK void (*__MALLOC_HOOK_VOLATILE __free_hook)(void* __ptr,  const void*) = nullptr;
 """),
     Patch(
+        "pxr/base/tf/CMakeLists.txt",
+        "the crate carries no tests, and these belong to one although they are listed with the Python modules",
+        """        testenv/__init__.py
+        testenv/testTfScriptModuleLoader_AAA_RaisesError.py
+        testenv/testTfScriptModuleLoader_DepLoadsAll.py
+        testenv/testTfScriptModuleLoader_LoadsAll.py
+        testenv/testTfScriptModuleLoader_LoadsUnknown.py
+        testenv/testTfScriptModuleLoader_Other.py
+        testenv/testTfScriptModuleLoader_Test.py
+        testenv/testTfScriptModuleLoader_Unknown.py
+""",
+        ""),
+    Patch(
         "pxr/imaging/hdx/CMakeLists.txt",
         "the crate carries no images, so this one cannot be installed",
         "        textures/StinsonBeach.exr\n",
