@@ -155,8 +155,9 @@ if(OpenUSD_FOUND AND NOT TARGET OpenUSD::hydra)
     add_library(OpenUSD::hydra INTERFACE IMPORTED)
     target_include_directories(OpenUSD::hydra SYSTEM INTERFACE ${_usd_includes})
     target_link_libraries(OpenUSD::hydra INTERFACE ${_usd_hydra} ${_usd_extra})
-    # Old boost and old hash containers announce their age on every include.
-    target_compile_definitions(OpenUSD::hydra INTERFACE BOOST_BIND_GLOBAL_PLACEHOLDERS BOOST_ALLOW_DEPRECATED_HEADERS)
+    # Old boost, old TBB and old hash containers announce their age on every include.
+    target_compile_definitions(OpenUSD::hydra INTERFACE BOOST_BIND_GLOBAL_PLACEHOLDERS BOOST_ALLOW_DEPRECATED_HEADERS
+                               TBB_SUPPRESS_DEPRECATED_MESSAGES=1)
     target_compile_options(OpenUSD::hydra INTERFACE -Wno-deprecated)
     if(OpenUSD_HAS_IMAGING)
         add_library(OpenUSD::imaging INTERFACE IMPORTED)

@@ -205,16 +205,16 @@ HdHiprMesh::Rebuild HdHiprMesh::setPrimvar(HdSceneDelegate*, HdPrimvarDescriptor
         return Rebuild::All;
     }
     primvar->interpolation = *interpolation;
+    primvar->linear = descriptor.interpolation == HdInterpolationVarying;
     primvar->indices.assign(indices.cdata(), indices.cdata() + indices.size());
     if (old == primvars.end()) {
         primvars.push_back(std::move(*primvar));
-    } else if (samePrimvar(*old, *primvar)) {
-        return Rebuild::None;
-    } else {
-        *old = std::move(*primvar);
+        return Rebuild::All;
     }
+    if (*old == *primvar) { return Rebuild::None; }
+    *old = std::move(*primvar);
     // Animated normals come with animated points; any other primvar is stored per triangle corner or vertex.
-    return descriptor.name == HdTokens->normals && old != primvars.end() ? Rebuild::Points : Rebuild::All;
+    return descriptor.name == HdTokens->normals ? Rebuild::Points : Rebuild::All;
 }
 
 void HdHiprMesh::sendGeometry(Rebuild rebuild, HdHiprRenderParam& param) {

@@ -78,7 +78,7 @@ std::optional<hipr::Interpolation> toInterpolation(HdInterpolation interpolation
         return hipr::Interpolation::Constant;
     case HdInterpolationUniform:
         return hipr::Interpolation::Uniform;
-    case HdInterpolationVarying: // linear and per point: the same as vertex once a mesh is refined
+    case HdInterpolationVarying:
     case HdInterpolationVertex:
         return hipr::Interpolation::Vertex;
     case HdInterpolationFaceVarying:
@@ -99,11 +99,6 @@ std::vector<glm::vec3> toPoints(VtValue const& value) {
         points.emplace_back(floats.values[i], floats.values[i + 1], floats.values[i + 2]);
     }
     return points;
-}
-
-bool samePrimvar(hipr::Primvar const& a, hipr::Primvar const& b) {
-    return a.name == b.name && a.interpolation == b.interpolation && a.components == b.components &&
-           a.values == b.values && a.indices == b.indices;
 }
 
 } // namespace hdhipr

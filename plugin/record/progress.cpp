@@ -39,14 +39,16 @@ std::string progressText(const ProgressState& state) {
 
 void Progress::begin(const std::string& title) {
     _title = title;
-    _last = Clock::now();
-    _drawn = false;
+    _drawn = _told = false;
 }
 
 void Progress::update(const ProgressState& state) {
     if (!_out) return;
+    if (!_told && !_terminal && state.samples == 0) return;
     const auto now = Clock::now();
-    if (now - _last < (_terminal ? Clock::duration(terminalInterval) : Clock::duration(lineInterval))) return;
+    const auto interval = _terminal ? Clock::duration(terminalInterval) : Clock::duration(lineInterval);
+    if (_told && now - _last < interval) return;
+    _told = true;
     _last = now;
     if (!_terminal) {
         std::fprintf(_out, "%s: %s\n", _title.c_str(), progressText(state).c_str());

@@ -23,8 +23,8 @@ std::string durationText(double seconds);
 
 class Progress {
 public:
-    /// Writes to `out`; `terminal` draws a bar over itself, else there is one line every ten seconds. A null
-    /// `out` is silent.
+    /// Writes to `out`; `terminal` draws a bar over itself, else there is a line at the first sample and then
+    /// one every ten seconds. A null `out` is silent.
     Progress(std::FILE* out, bool terminal) : _out(out), _terminal(terminal) {}
 
     void begin(const std::string& title);
@@ -35,7 +35,9 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
     std::FILE* _out;
-    bool _terminal, _drawn = false;
+    bool _terminal;
+    bool _drawn = false; ///< a bar stands on the current line
+    bool _told = false;  ///< something was shown since begin()
     std::string _title;
     Clock::time_point _last;
 };

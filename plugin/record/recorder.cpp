@@ -132,6 +132,9 @@ ExitCode Recording::run() {
     _report.height = view.height;
     _report.openSeconds = opening.seconds();
 
+    if (_options.verbosity != Verbosity::Quiet)
+        std::fprintf(stderr, "recording %s with %s: %d x %d, camera %s\n", _report.scene.c_str(),
+                     _report.renderer.c_str(), view.width, view.height, _report.camera.c_str());
     _engine.populate(stage, view.camera,
                      {view.width, view.height, _options.aovs, _options.purposes, _options.refineLevel});
     for (size_t i = 0; i < frames.size() && !_interrupted; ++i) {
@@ -196,8 +199,8 @@ void Recording::writeFrame(FrameReport& report) {
         writePicture(path, picture, _display);
         report.files.push_back(path);
         if (_options.verbosity != Verbosity::Quiet)
-            std::printf("wrote %s (%d x %d, %ld samples, %s)\n", path.c_str(), picture.width, picture.height,
-                        report.samples, durationText(report.seconds).c_str());
+            std::fprintf(stderr, "wrote %s (%d x %d, %ld samples, %s)\n", path.c_str(), picture.width,
+                         picture.height, report.samples, durationText(report.seconds).c_str());
     }
     if (_options.memory) std::fputs(memoryTable(report.stats).c_str(), stdout);
     std::fflush(stdout);
