@@ -70,6 +70,17 @@ def test(options) -> int:
     return ctest.run(project.build, environment.extended(sdk), selection)
 
 
+def bench(options) -> int:
+    what, *arguments = options.arguments or [""]
+    if what not in ("trace", "cycles"):
+        raise HiprError(f"there is no benchmark '{what}'." if what else "which benchmark?", "Say trace or cycles.")
+    sdk, project = _built(options, openusd.CORE, tests=True)
+    if what == "trace":
+        return _replace(project.program("hipr-bench"), ["trace", *arguments], sdk)
+    script = paths.CHECKOUT / "testenv/bench/compare_cycles.py"
+    return _replace(script, ["--record", str(project.program("hiprrecord")), *arguments], sdk, python=True)
+
+
 def devices(options) -> int:
     sdk, project = _built(options, openusd.CORE)
     return _replace(project.program("hiprdevices"), [], sdk)
