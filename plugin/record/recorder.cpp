@@ -43,6 +43,7 @@ public:
 private:
     void configureRenderer();
     void renderFrame(double frame, FrameReport& report);
+    double progressFraction(const FrameReport& report) const;
     void writeFrame(FrameReport& report);
     void finish() const;
 
@@ -111,6 +112,11 @@ void Recording::configureRenderer() {
     }
 }
 
+/// Whether every pixel has a sample; renderers that do not count are trusted.
+bool hasPicture(const FrameReport& report) {
+    return statNumber(report.stats, samplesKey, 1.0) >= 1.0;
+}
+
 ExitCode Recording::run() {
     const Stopwatch opening;
     std::vector<std::string> mask = _options.mask;
@@ -143,6 +149,7 @@ ExitCode Recording::run() {
                             ? "rendering"
                             : TfStringPrintf("frame %g (%zu of %zu)", frames[i], i + 1, frames.size()));
         renderFrame(frames[i], report);
+        if (_interrupted && !hasPicture(report)) break; // an empty file might replace a good one
         writeFrame(report);
         _report.frames.push_back(std::move(report));
     }
@@ -150,35 +157,34 @@ ExitCode Recording::run() {
     return _interrupted ? ExitInterrupted : ExitOk;
 }
 
+double Recording::progressFraction(const FrameReport& report) const {
+    const VtValue target = VtValue::Cast<double>(
+        _engine.delegate().GetRenderSetting(HdRenderSettingsTokens->convergedSamplesPerPixel));
+    const double samples = target.GetWithDefault<double>(0.0);
+    const double bySamples = samples > 0 ? 100.0 * double(report.samples) / samples : 0.0;
+    const double fraction = statNumber(report.stats, "percentDone", bySamples) / 100.0;
+    return _options.seconds > 0 ? std::max(fraction, report.seconds / _options.seconds) : fraction;
+}
+
 void Recording::renderFrame(double frame, FrameReport& report) {
     const Stopwatch watch;
     report.frame = frame;
-    const double targetSamples = statNumber(
-        {{"n", _engine.delegate().GetRenderSetting(HdRenderSettingsTokens->convergedSamplesPerPixel)}}, "n",
-        0.0);
     _engine.setFrame(frame);
     while (true) {
         report.converged = _engine.step();
         report.stats = _engine.stats();
         report.seconds = watch.seconds();
-        const double samples = statNumber(report.stats, samplesKey, -1.0);
-        report.samples = long(std::max(samples, 0.0));
-        if (samples >= 1.0 && report.firstSampleSeconds < 0) report.firstSampleSeconds = report.seconds;
+        report.samples = long(statNumber(report.stats, samplesKey, 0.0));
+        if (report.samples > 0 && report.firstSampleSeconds < 0) report.firstSampleSeconds = report.seconds;
         if (report.converged || _interrupted) break;
-        const bool hasPicture = samples < 0.0 || samples >= 1.0;
-        if (_options.seconds > 0 && report.seconds >= _options.seconds && hasPicture) break;
-
-        ProgressState state{0, report.samples, report.seconds};
-        const double bySamples = targetSamples > 0 ? 100.0 * report.samples / targetSamples : 0.0;
-        state.fraction = statNumber(report.stats, "percentDone", bySamples) / 100.0;
-        if (_options.seconds > 0)
-            state.fraction = std::max(state.fraction, report.seconds / _options.seconds);
-        _progress.update(state);
+        if (_options.seconds > 0 && report.seconds >= _options.seconds && hasPicture(report)) break;
+        _progress.update({progressFraction(report), report.samples, report.seconds});
         std::this_thread::sleep_for(pollInterval);
     }
     _progress.end();
-    if (report.converged &&
-        statNumber(report.stats, HdPerfTokens->numCompletedSamples.GetString(), 1.0) < 1.0)
+    // HiPR always counts samples; when it has no device there is nothing to count.
+    const bool failed = _report.renderer == ownRenderer && report.stats.empty();
+    if (report.converged && (failed || !hasPicture(report)))
         throw Failure(ExitRender, "the renderer " + _report.renderer + " stopped without a picture");
 }
 
