@@ -95,8 +95,9 @@ uint chooseLobe(Surface s, inout float u) {
     return lobe;
 }
 
-// Draws a direction; the density is evalBsdf's pdf. `lobe` (LOBE_*) tells which lobe drew it. A kernel that also
-// evaluates a light's direction can call this and run evalBsdfScaled for both in one loop.
+// Draws a direction; the density is evalBsdf's pdf. `lobe` (LOBE_*) tells which lobe drew it. Zero when the path ends: a
+// steep microfacet may reflect down or refract up, where evalBsdf would take the direction for another event. A kernel
+// that also evaluates a light's direction can call this and run evalBsdfScaled for both in one loop.
 vec3 sampleBsdfDirection(Surface s, vec3 wo, vec4 u, out uint lobe) {
     mat3 frame = frameAround(s.ns);
     vec3 o = wo * frame;
@@ -111,9 +112,11 @@ vec3 sampleBsdfDirection(Surface s, vec3 wo, vec4 u, out uint lobe) {
     if (lobe == LOBE_GLASS && u.w >= dielectricFresnel(cosine, s.eta)) {
         float inverse = 1.0 / s.eta; // Snell's law: Walter eq. 40
         float cosT = sqrt(max(0.0, 1.0 - inverse * inverse * (1.0 - cosine * cosine)));
-        return frame * normalize((inverse * cosine - cosT) * h - inverse * o);
+        vec3 refracted = normalize((inverse * cosine - cosT) * h - inverse * o);
+        return refracted.z < 0.0 ? frame * refracted : vec3(0.0);
     }
-    return frame * (2.0 * cosine * h - o);
+    vec3 reflected = 2.0 * cosine * h - o;
+    return reflected.z > 0.0 ? frame * reflected : vec3(0.0);
 }
 
 // Draws a direction with weight f * |cos| / pdf. False: the path ends here (the direction leaves on the wrong side of the

@@ -1,0 +1,67 @@
+// Evaluates and samples one surface: invocation i sees it from wo[i], evaluates towards wi[i], and samples with u[i].
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "material/bsdf.glsl"
+
+layout(local_size_x = 64) in;
+
+struct SurfaceParameters {
+    vec3 diffuseColor;
+    vec3 specularColor;
+    float metallic, roughness, clearcoat, clearcoatRoughness, opacity, ior;
+    uint flags;
+    vec3 ng, ns;
+    uint frontFacing;
+    uint64_t albedoTable;
+};
+
+struct Outcome {
+    vec3 f;        // towards wi[i]
+    float pdf;
+    vec3 sampled;  // direction
+    float sampledPdf;
+    vec3 weight;
+    uint lobe;     // 99: sampling failed
+    vec3 sampledF; // evaluated anew for the sampled direction
+    float sampledEvalPdf;
+};
+
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer ParametersRef { SurfaceParameters v; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer OutcomeRef { Outcome v[]; };
+layout(push_constant, scalar) uniform Push {
+    uint64_t parameters, wo, wi, u, outcomes;
+    uint count;
+} push;
+
+Surface makeSurface(SurfaceParameters p, vec3 wo) {
+    Surface s;
+    MaterialInputs inputs;
+    inputs.diffuseColor = p.diffuseColor;
+    inputs.specularColor = p.specularColor;
+    inputs.metallic = p.metallic;
+    inputs.roughness = p.roughness;
+    inputs.clearcoat = p.clearcoat;
+    inputs.clearcoatRoughness = p.clearcoatRoughness;
+    inputs.opacity = p.opacity;
+    inputs.ior = p.ior;
+    s.frontFacing = p.frontFacing != 0u;
+    s.ng = p.ng;
+    s.ns = bendNormal(p.ns, p.ng, wo);
+    s.albedoTable = p.albedoTable;
+    setLobes(s, inputs, p.flags);
+    setViewer(s, dot(s.ns, wo));
+    return s;
+}
+
+void main() {
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= push.count) return;
+    const vec3 wo = Vec3Ref(push.wo).v[i];
+    const Surface s = makeSurface(ParametersRef(push.parameters).v, wo);
+    Outcome result;
+    result.f = evalBsdf(s, wo, Vec3Ref(push.wi).v[i], result.pdf);
+    if (!sampleBsdf(s, wo, Vec4Ref(push.u).v[i], result.sampled, result.weight, result.sampledPdf, result.lobe))
+        result.lobe = 99u;
+    result.sampledF = evalBsdf(s, wo, result.sampled, result.sampledEvalPdf);
+    OutcomeRef(push.outcomes).v[i] = result;
+}

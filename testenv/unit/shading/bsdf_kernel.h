@@ -1,0 +1,55 @@
+/// @file bsdf_kernel.h
+/// The host's side of bsdf.comp.
+#pragma once
+
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "shaders/shared/material.h"
+
+namespace hipr::test {
+
+struct SurfaceParameters {
+    glm::vec3 diffuseColor{0.f};
+    glm::vec3 specularColor{0.f};
+    float metallic = 0.f, roughness = 0.5f, clearcoat = 0.f, clearcoatRoughness = 0.01f, opacity = 1.f,
+          ior = 1.5f;
+    uint32_t flags = 0;
+    glm::vec3 ng{0.f, 0.f, 1.f}, ns{0.f, 0.f, 1.f};
+    uint32_t frontFacing = 1;
+    uint64_t albedoTable = 0; ///< filled by runBsdf
+};
+
+struct Outcome {
+    glm::vec3 f;
+    float pdf;
+    glm::vec3 sampled;
+    float sampledPdf;
+    glm::vec3 weight;
+    uint32_t lobe;
+    glm::vec3 sampledF;
+    float sampledEvalPdf;
+    bool failed() const { return lobe == 99; }
+};
+
+/// All vectors have one size. See bsdf.comp.
+std::vector<Outcome> runBsdf(const SurfaceParameters& parameters, const std::vector<glm::vec3>& wo,
+                             const std::vector<glm::vec3>& wi, const std::vector<glm::vec4>& u);
+
+/// The same viewer for all of `wi`, sampled with fresh random numbers.
+std::vector<Outcome> runBsdf(const SurfaceParameters& parameters, const glm::vec3& wo,
+                             const std::vector<glm::vec3>& wi);
+
+/// A direction by the cosine of its polar angle and its azimuth.
+glm::vec3 direction(double cosine, double azimuth);
+
+/// A material with a name for messages, and the materials that the tests go through.
+struct NamedSurface {
+    const char* name;
+    SurfaceParameters parameters;
+};
+std::vector<NamedSurface> opaqueSurfaces();
+std::vector<NamedSurface> glassSurfaces();
+
+} // namespace hipr::test
