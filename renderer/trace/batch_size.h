@@ -11,8 +11,8 @@ namespace hipr {
 /// when they are long. Starts small, so that the first picture comes soon.
 class BatchSize {
 public:
-    static constexpr uint32_t Smallest = 2048, First = 8192;
-    static constexpr double Short = 0.020, Long = 0.050; ///< seconds
+    static constexpr uint32_t Smallest = 8192, First = 8192;
+    static constexpr double Short = 0.030, Long = 0.060; ///< seconds
 
     explicit BatchSize(uint32_t capacity) : _capacity(capacity), _paths(std::min(First, capacity)) {}
 

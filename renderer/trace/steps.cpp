@@ -1,6 +1,5 @@
 #include "renderer/trace/steps.h"
 
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -14,21 +13,22 @@ Profile::Profile() {
 
 Profile::~Profile() {
     for (const auto& [name, row] : _rows)
-        std::fprintf(stderr, "profile: %-16s %8llu calls %10.1f ms\n", name.c_str(),
-                     static_cast<unsigned long long>(row.calls), 1e3 * row.seconds);
+        std::fprintf(stderr, "profile: %-16s %8llu calls %10.1f ms %10.1f ms of processors\n", name.c_str(),
+                     static_cast<unsigned long long>(row.calls), 1e3 * row.seconds, 1e3 * row.cpuSeconds);
 }
 
-void Profile::add(const char* step, double seconds) {
+void Profile::add(const char* step, double seconds, double cpuSeconds) {
     Row& row = _rows[step];
     ++row.calls;
     row.seconds += seconds;
+    row.cpuSeconds += cpuSeconds;
 }
 
 template <class F> void Steps::timed(const char* name, F&& work) {
-    if (!_profile.enabled()) return work();
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    _profile.add(name, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    if (_profile.enabled())
+        _profile.measure(name, work);
+    else
+        work();
 }
 
 void Steps::run(const char* name, Record record) {

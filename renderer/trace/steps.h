@@ -2,6 +2,8 @@
 /// A sequence of kernels and traversals, put into as few submissions as the traversal allows.
 #pragma once
 
+#include <chrono>
+#include <ctime>
 #include <functional>
 #include <map>
 #include <string>
@@ -11,19 +13,28 @@
 
 namespace hipr {
 
-/// Host seconds by step name; printed when destroyed. Only with HIPR_PROFILE=1 in the environment.
+/// Wall-clock and processor time of all threads (where a CPU device's kernels show too) by step name; printed
+/// when destroyed. Only with HIPR_PROFILE=1 in the environment.
 class Profile {
 public:
     Profile();
     ~Profile();
     bool enabled() const { return _enabled; }
-    void add(const char* step, double seconds);
+    /// Runs `work` and adds its time to `step`.
+    template <class F> void measure(const char* step, F&& work) {
+        const auto start = std::chrono::steady_clock::now();
+        const std::clock_t cpu = std::clock();
+        work();
+        add(step, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+            double(std::clock() - cpu) / CLOCKS_PER_SEC);
+    }
 
 private:
     struct Row {
         uint64_t calls = 0;
-        double seconds = 0;
+        double seconds = 0, cpuSeconds = 0;
     };
+    void add(const char* step, double seconds, double cpuSeconds);
     bool _enabled;
     std::map<std::string, Row> _rows;
 };
