@@ -62,7 +62,7 @@ void HdHiprLight::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, Hd
     if (_light == hipr::LightId::None) {
         _light = param.newId<hipr::LightId>();
     }
-    param.edit().setLight(_light, _desc);
+    param.setLight(_light, _desc);
     *dirtyBits = Clean;
 }
 
@@ -127,7 +127,7 @@ void HdHiprLight::Finalize(HdRenderParam* renderParam) {
     if (_light == hipr::LightId::None) {
         return;
     }
-    static_cast<HdHiprRenderParam*>(renderParam)->edit().removeLight(_light);
+    static_cast<HdHiprRenderParam*>(renderParam)->removeLight(_light);
     _light = hipr::LightId::None;
 }
 

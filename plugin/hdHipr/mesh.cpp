@@ -211,7 +211,9 @@ HdHiprMesh::Rebuild HdHiprMesh::setPrimvar(HdSceneDelegate*, HdPrimvarDescriptor
         primvars.push_back(std::move(*primvar));
         return Rebuild::All;
     }
-    if (*old == *primvar) { return Rebuild::None; }
+    if (*old == *primvar) {
+        return Rebuild::None;
+    }
     *old = std::move(*primvar);
     // Animated normals come with animated points; any other primvar is stored per triangle corner or vertex.
     return descriptor.name == HdTokens->normals ? Rebuild::Points : Rebuild::All;

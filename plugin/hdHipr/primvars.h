@@ -22,8 +22,8 @@ namespace hdhipr {
 /// interpolation is not set.
 std::optional<hipr::Primvar> toPrimvar(TfToken const& name, VtValue const& value);
 
-/// Varying becomes Vertex (Primvar::linear tells them apart). Nothing for instance-rate primvars, which travel with
-/// the instances.
+/// Varying becomes Vertex (Primvar::linear tells them apart). Nothing for instance-rate primvars, which
+/// travel with the instances.
 std::optional<hipr::Interpolation> toInterpolation(HdInterpolation interpolation);
 
 /// Point positions of single, double or half precision. Empty when the value holds none.

@@ -44,6 +44,7 @@ public:
     /// kept for GetRenderSetting and have no effect; unknown keys that begin with `hipr:` are reported.
     void SetRenderSetting(TfToken const& key, VtValue const& value) override;
     VtValue GetRenderSetting(TfToken const& key) const override;
+    using HdRenderDelegate::GetRenderSetting;
     HdRenderSettingDescriptorList GetRenderSettingDescriptors() const override;
 
     /// percentDone (0..100), numCompletedSamples, totalClockTime (seconds), hipr:paths, hipr:rays,

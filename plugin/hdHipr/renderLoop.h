@@ -36,6 +36,7 @@ struct Frame {
     hipr::CameraDesc camera;
     PixelRect rect;
     std::vector<AovTarget> targets;
+    bool skyVisible = false; ///< a dome light fills the background, so the host's clear colour does not show
 };
 
 struct LoopStats {

@@ -58,6 +58,27 @@ void HdHiprRenderParam::removeObject(hipr::ObjectId id) {
     _edit.removeObject(id);
 }
 
+void HdHiprRenderParam::setLight(hipr::LightId id, hipr::LightDesc const& desc) {
+    std::lock_guard<std::mutex> lock(_mutex);
+    if (desc.kind == hipr::LightKind::Dome && desc.visible) {
+        _domes.insert(id);
+    } else {
+        _domes.erase(id);
+    }
+    _edit.setLight(id, desc);
+}
+
+void HdHiprRenderParam::removeLight(hipr::LightId id) {
+    std::lock_guard<std::mutex> lock(_mutex);
+    _domes.erase(id);
+    _edit.removeLight(id);
+}
+
+bool HdHiprRenderParam::hasDome() {
+    std::lock_guard<std::mutex> lock(_mutex);
+    return !_domes.empty();
+}
+
 void HdHiprRenderParam::setFilter(HdRprimCollection const& collection, TfTokenVector const& renderTags) {
     std::lock_guard<std::mutex> lock(_mutex);
     if (collection.GetRootPaths() == _rootPaths && collection.GetExcludePaths() == _excludePaths &&

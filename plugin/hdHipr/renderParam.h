@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <mutex>
+#include <set>
 #include <unordered_map>
 
 #include "plugin/hdHipr/renderLoop.h"
@@ -45,6 +46,11 @@ public:
     void setObject(hipr::ObjectId id, hdhipr::ObjectState const& state);
     void removeObject(hipr::ObjectId id);
 
+    /// Lights go through here so that it is known whether a dome fills the background.
+    void setLight(hipr::LightId id, hipr::LightDesc const& desc);
+    void removeLight(hipr::LightId id);
+    bool hasDome();
+
     /// What the render pass draws. Objects outside of it become invisible.
     void setFilter(HdRprimCollection const& collection, TfTokenVector const& renderTags);
 
@@ -65,6 +71,7 @@ private:
     std::mutex _mutex; ///< guards everything below
     std::unordered_map<SdfPath, hipr::MaterialId, SdfPath::Hash> _materials;
     std::unordered_map<hipr::ObjectId, hdhipr::ObjectState> _objects;
+    std::set<hipr::LightId> _domes; ///< those that are switched on
     SdfPathVector _rootPaths, _excludePaths;
     TfTokenVector _renderTags;
 };

@@ -37,6 +37,10 @@ HdHiprRenderBuffer* HdHiprRenderPass::bufferOf(HdRenderPassAovBinding const& bin
     return dynamic_cast<HdHiprRenderBuffer*>(buffer);
 }
 
+bool HdHiprRenderPass::settingOn(const char* name) const {
+    return GetRenderIndex()->GetRenderDelegate()->GetRenderSetting<bool>(TfToken(name), true);
+}
+
 void HdHiprRenderPass::_Execute(HdRenderPassStateSharedPtr const& state, TfTokenVector const& renderTags) {
     std::vector<AovTarget> targets;
     int height = 0;
@@ -70,6 +74,8 @@ void HdHiprRenderPass::_Execute(HdRenderPassStateSharedPtr const& state, TfToken
     frame.camera = {toGlm(state->GetWorldToViewMatrix()), toGlm(state->GetProjectionMatrix())};
     frame.rect = renderRect(*state, height);
     frame.targets = std::move(targets);
+    frame.skyVisible =
+        _param.hasDome() && settingOn("domeLightCameraVisibility") && settingOn("enableSceneLights");
     _param.setFilter(GetRprimCollection(), renderTags);
     _param.commitEdits();
     _param.loop()->submitFrame(frame);

@@ -24,6 +24,7 @@ protected:
     void _Execute(HdRenderPassStateSharedPtr const& state, TfTokenVector const& renderTags) override;
 
 private:
+    bool settingOn(const char* name) const;
     HdHiprRenderBuffer* bufferOf(HdRenderPassAovBinding const& binding) const;
 
     HdHiprRenderParam& _param;

@@ -84,7 +84,7 @@ SettingResult assignRenderSetting(hipr::Settings& settings, TfToken const& key, 
     bool changed = false;
     std::string error;
     if (!hipr::assignSetting(settings, key.GetString(), *converted, &changed, &error)) {
-        warnOnce("", "render setting '" + key.GetString() + "': " + error);
+        warnOnce("", "render setting " + error);
         return SettingResult::Refused;
     }
     return changed ? SettingResult::Changed : SettingResult::Unchanged;

@@ -1,0 +1,60 @@
+/// @file test_host.h
+/// A host program in small: a delegate, a render index, buffers, and the loop every host runs.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "plugin/hdHipr/renderBuffer.h"
+#include "plugin/hdHipr/renderDelegate.h"
+#include "pxr/imaging/hd/engine.h"
+#include "pxr/imaging/hd/renderPass.h"
+#include "testenv/unit/delegate/test_scene.h"
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+/// Looks along -Z at the square [-size/2, size/2] of the XY plane with an orthographic camera.
+class TestHost {
+public:
+    static constexpr int width = 32, height = 32;
+
+    explicit TestHost(std::vector<std::string> const& aovs = {"color", "primId", "instanceId", "elementId"},
+                      int samples = 4);
+    ~TestHost();
+
+    TestScene& scene() { return *_scene; }
+    HdHiprRenderDelegate& delegate() { return *_delegate; }
+    HdRenderPass& pass() { return *_pass; }
+    HdHiprRenderBuffer& buffer(std::string const& aov);
+
+    void setViewSize(double size) { _viewSize = size; }
+    void setRenderTags(TfTokenVector const& tags) { _tags = tags; }
+    void setClearColor(GfVec4f const& color); ///< of the first AOV
+    void setCollection(HdRprimCollection const& collection) { _pass->SetRprimCollection(collection); }
+
+    /// One execution, as a host does per tick.
+    void tick();
+    /// Ticks until converged; false when that takes longer than a minute.
+    bool render();
+
+    /// Pixel at a position of the XY plane in units of the view: (-0.5, -0.5) bottom left .. (0.5, 0.5) top
+    /// right.
+    int readInt(std::string const& aov, double x, double y);
+    GfVec4f readColor(double x, double y);
+
+private:
+    size_t pixelIndex(double x, double y) const;
+
+    std::unique_ptr<HdHiprRenderDelegate> _delegate;
+    std::unique_ptr<HdRenderIndex> _index;
+    std::unique_ptr<TestScene> _scene;
+    HdEngine _engine;
+    HdRenderPassSharedPtr _pass;
+    HdRenderPassStateSharedPtr _state;
+    std::vector<std::pair<std::string, HdHiprRenderBuffer*>> _buffers;
+    TfTokenVector _tags{HdRenderTagTokens->geometry};
+    double _viewSize = 1.0;
+};
+
+PXR_NAMESPACE_CLOSE_SCOPE

@@ -1,0 +1,76 @@
+/// @file test_scene.h
+/// A scene delegate that holds a handful of prims in a map, so that a test can edit any of them and mark any
+/// bit.
+#pragma once
+
+#include <map>
+
+#include "plugin/hdHipr/compat.h"
+#include "pxr/base/gf/vec3f.h"
+#include "pxr/imaging/hd/tokens.h"
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+class TestScene final : public HdSceneDelegate {
+public:
+    struct Primvar {
+        HdInterpolation interpolation;
+        VtValue value;
+    };
+    struct Prim {
+        TfToken type;
+        HdMeshTopology topology;
+        GfMatrix4d transform{1.0};
+        bool visible = true, doubleSided = true;
+        TfToken renderTag = HdRenderTagTokens->geometry;
+        SdfPath material, instancer;
+        std::map<TfToken, Primvar> primvars;
+        std::map<TfToken, VtValue> params;     ///< of a light
+        std::map<SdfPath, VtIntArray> indices; ///< of an instancer, by prototype
+        VtValue resource;                      ///< of a material
+        int refineLevel = 0;
+    };
+
+    explicit TestScene(HdRenderIndex* index) : HdSceneDelegate(index, SdfPath::AbsoluteRootPath()) {}
+
+    /// Adds a unit square in the XY plane, facing +Z, centred at the origin, of one colour.
+    Prim& addSquare(SdfPath const& id, GfVec3f const& color, SdfPath const& instancer = SdfPath());
+    /// Adds an instancer of `prototype` with a translation per instance.
+    Prim& addInstancer(SdfPath const& id, SdfPath const& prototype, VtVec3fArray const& translations,
+                       SdfPath const& parent = SdfPath());
+    /// Adds a dome light of radiance 1, in which a white diffuse surface shows 1.
+    Prim& addDome(SdfPath const& id);
+    /// Adds a UsdPreviewSurface of one diffuse colour without a specular lobe's help.
+    Prim& addMaterial(SdfPath const& id, GfVec3f const& color);
+
+    Prim& prim(SdfPath const& id) { return _prims.at(id); }
+    HdChangeTracker& tracker() { return GetRenderIndex().GetChangeTracker(); }
+    void remove(SdfPath const& id);
+
+    HdMeshTopology GetMeshTopology(SdfPath const& id) override { return prim(id).topology; }
+    GfMatrix4d GetTransform(SdfPath const& id) override { return prim(id).transform; }
+    bool GetVisible(SdfPath const& id) override { return prim(id).visible; }
+    bool GetDoubleSided(SdfPath const& id) override { return prim(id).doubleSided; }
+    TfToken GetRenderTag(SdfPath const& id) override { return prim(id).renderTag; }
+    SdfPath GetMaterialId(SdfPath const& id) override { return prim(id).material; }
+    VtValue GetMaterialResource(SdfPath const& id) override { return prim(id).resource; }
+    HdDisplayStyle GetDisplayStyle(SdfPath const& id) override {
+        return HdDisplayStyle(prim(id).refineLevel);
+    }
+    GfMatrix4d GetInstancerTransform(SdfPath const& id) override { return prim(id).transform; }
+    VtValue Get(SdfPath const& id, TfToken const& key) override;
+    HdPrimvarDescriptorVector GetPrimvarDescriptors(SdfPath const& id,
+                                                    HdInterpolation interpolation) override;
+    VtIntArray GetInstanceIndices(SdfPath const& id, SdfPath const& prototype) override;
+    VtValue GetLightParamValue(SdfPath const& id, TfToken const& name) override;
+#if PXR_VERSION >= 2102
+    SdfPath GetInstancerId(SdfPath const& id) override {
+        return prim(id).instancer;
+    }
+#endif
+
+private:
+    std::map<SdfPath, Prim> _prims;
+};
+
+PXR_NAMESPACE_CLOSE_SCOPE
