@@ -6,7 +6,8 @@
 namespace hipr {
 namespace {
 
-constexpr uint32_t MaxSide = 65535; // PathState::pixel packs both coordinates
+constexpr uint32_t MaxSide = 65535;        // PathState::pixel packs both coordinates
+constexpr uint64_t MaxPixels = 1ull << 30; // kernels count the words of an AOV in 32 bits
 
 bool isSum(AovKind kind) {
     return kind == AovKind::Color || kind == AovKind::Albedo || kind == AovKind::SampleCount;
@@ -27,7 +28,8 @@ void FilmBuffers::setDesc(const FilmDesc& desc) {
     _sums = {}, _visibility = {}, _targets = {};
     _firstHits.clear();
     _desc = desc;
-    const bool fits = std::max(desc.width, desc.height) <= MaxSide;
+    const bool fits =
+        std::max(desc.width, desc.height) <= MaxSide && uint64_t(desc.width) * desc.height <= MaxPixels;
     _width = fits ? desc.width : 0;
     _height = fits ? desc.height : 0;
     if (!fits)
@@ -37,8 +39,7 @@ void FilmBuffers::setDesc(const FilmDesc& desc) {
                                std::to_string(MaxSide) + " pixels a side");
     if (pixels() == 0) return;
 
-    const std::vector<gpu::FilmPixel> black(pixels());
-    _sums = _device.createFrom(black.data(), black.size(), "Film");
+    _sums = filled(pixels() * sizeof(gpu::FilmPixel), 0);
     std::vector<gpu::AovTarget> targets;
     for (const AovRequest& request : _desc.aovs) {
         if (isSum(request.kind)) continue;
@@ -52,6 +53,12 @@ void FilmBuffers::setDesc(const FilmDesc& desc) {
     if (targets.empty()) return;
     _targets = _device.createFrom(targets.data(), targets.size(), "Film");
     _visibility = _device.createBuffer(pixels() * sizeof(gpu::VisibilityRecord), MemoryUse::Device, "Film");
+}
+
+Buffer FilmBuffers::filled(uint64_t bytes, uint32_t word) {
+    Buffer buffer = _device.createBuffer(bytes, MemoryUse::Device, "Film");
+    _device.run([&](VkCommandBuffer cmd) { vkCmdFillBuffer(cmd, buffer.handle(), 0, VK_WHOLE_SIZE, word); });
+    return buffer;
 }
 
 void FilmBuffers::describe(gpu::TraceRecord& record) const {

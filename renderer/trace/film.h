@@ -38,6 +38,7 @@ private:
         AovRequest request;
         Buffer values;
     };
+    Buffer filled(uint64_t bytes, uint32_t word);
     void readSums(AovKind kind, uint32_t* dst) const;
 
     Device& _device;

@@ -11,10 +11,9 @@
 #include "light/hit.glsl"
 
 // Random vectors of one event; raygen has set 0.
-const uint RANDOM_LIGHT = 1u;
+const uint RANDOM_LIGHT = 1u; // w, which light sampling leaves alone, decides on passing through and on roulette
 const uint RANDOM_BSDF = 2u;
-const uint RANDOM_CHOICE = 3u; // x: pass through, y: Russian roulette
-const uint RANDOM_SETS = 3u;
+const uint RANDOM_SETS = 2u;
 
 vec4 randomVector(TraceRecord trace, PathState path, uint which) {
     return sobol4(pathPixel(path), path.sampleIndex, RANDOM_SETS * path.event + which, trace.seed);
@@ -25,9 +24,10 @@ vec3 offsetTowards(Surface surface, vec3 direction) {
 }
 
 // Next event estimation: the light of one emitter, weighted against finding it by BSDF sampling.
-void sampleDirectLight(TraceRecord trace, SceneRecord scene, inout PathState path, uint slot, Surface surface, vec3 wo) {
+void sampleDirectLight(TraceRecord trace, SceneRecord scene, inout PathState path, uint slot, Surface surface, vec3 wo,
+                       vec4 u) {
     LightSample light;
-    if (!sampleLight(scene, surface.position, randomVector(trace, path, RANDOM_LIGHT), light)) return;
+    if (!sampleLight(scene, surface.position, u, light)) return;
     float bsdfPdf;
     const vec3 f = evalBsdfScaled(surface, wo, light.wi, light.lobeScale, bsdfPdf);
     const vec3 contribution =
@@ -67,8 +67,8 @@ bool bounce(TraceRecord trace, inout PathState path, inout Ray ray, Surface surf
 // What a surface does with a path. False: the path ends here.
 bool scatter(TraceRecord trace, SceneRecord scene, inout PathState path, inout Ray ray, Hit hit, uint slot) {
     const Surface surface = evaluateSurface(scene, hit, ray);
-    const vec4 choice = randomVector(trace, path, RANDOM_CHOICE);
-    if (choice.x >= surface.opacity) {
+    const vec4 u = randomVector(trace, path, RANDOM_LIGHT);
+    if (u.w >= surface.opacity) {
         if (path.event - path.depth >= PATH_PASS_LIMIT) return false;
         ++path.event;
         ray.tMin = passedDistance(hit.t);
@@ -81,8 +81,8 @@ bool scatter(TraceRecord trace, SceneRecord scene, inout PathState path, inout R
     addRadiance(trace, path, path.throughput * surface.emission, path.depth > 1u);
     if (path.depth >= trace.maxDepth) return false;
     const vec3 wo = -ray.direction;
-    sampleDirectLight(trace, scene, path, slot, surface, wo);
-    return bounce(trace, path, ray, surface, wo, choice.y);
+    sampleDirectLight(trace, scene, path, slot, surface, wo, u);
+    return bounce(trace, path, ray, surface, wo, u.w / surface.opacity); // uniform again
 }
 
 // The light a ray has run into by `distance`, and the sky if it met nothing.
