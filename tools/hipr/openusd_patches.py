@@ -28,6 +28,12 @@ PATCHES = (
         "#define _AT_LEAST_GCC_THREE_ONE_OR_CLANG\n#endif\n",
         "#define _AT_LEAST_GCC_THREE_ONE_OR_CLANG\n#include <cxxabi.h>\n#endif\n"),
     Patch(
+        "pxr/base/arch/defines.h",
+        "TfHashMap would be one class for GCC and another for Clang, so that a delegate compiled by GCC could not link to "
+        "libraries compiled by Clang; with a name nobody defines it is the standard container for both",
+        "#if defined(ARCH_OS_LINUX) && defined(ARCH_COMPILER_GCC)\n",
+        "#if defined(ARCH_OS_LINUX) && defined(HIPR_GNU_HASH_MAP)\n"),
+    Patch(
         "pxr/base/work/singularTask.h",
         "size_t is used without a header that declares it",
         "#include <atomic>\n#include <functional>\n",
