@@ -288,6 +288,15 @@ std::optional<hipr::MaterialDesc> materialDesc(SdfPath const& materialPath,
     // Hosts put the terminal last; `terminals` also lists those of the other networks.
     const auto found = std::find_if(network.nodes.rbegin(), network.nodes.rend(), isTerminal);
     Node const& terminal = found == network.nodes.rend() ? network.nodes.back() : *found;
+    if (TfStringEndsWith(terminal.identifier.GetString(), "<glslfx>")) {
+        // UsdImaging's stand-in for models drawn as cards. Without textures it shows displayColor, as meshes
+        // do.
+        if (network.nodes.size() > 1) {
+            warnOnce(materialPath.GetString(),
+                     "textures of card draw modes are not supported; displayColor is shown");
+        }
+        return std::nullopt;
+    }
     if (terminal.identifier != "UsdPreviewSurface") {
         warnOnce(materialPath.GetString(),
                  "its surface <" + terminal.path.GetString() + "> is a '" + terminal.identifier.GetString() +

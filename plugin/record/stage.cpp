@@ -6,6 +6,7 @@
 #include "plugin/record/diagnostics.h"
 #include "plugin/record/failure.h"
 #include "plugin/record/framing.h"
+#include "plugin/record/materialCycles.h"
 #include "pxr/base/tf/error.h"
 #include "pxr/base/tf/errorMark.h"
 #include "pxr/base/tf/stringUtils.h"
@@ -135,7 +136,10 @@ UsdStageRefPtr openStage(const std::string& path, const std::vector<std::string>
     TfErrorMark errors;
     UsdStageRefPtr stage = mask.empty() ? UsdStage::Open(path, UsdStage::LoadAll)
                                         : UsdStage::OpenMasked(path, populationMask(mask));
-    if (stage) return stage;
+    if (stage) {
+        cutMaterialCycles(stage);
+        return stage;
+    }
     std::string why;
     for (const TfError& error : errors)
         why += (why.empty() ? ": " : "; ") + error.GetCommentary();
