@@ -154,9 +154,7 @@ class Builder:
 
     def _configure(self) -> None:
         hooks = self.work / "recipe"
-        hooks.mkdir(exist_ok=True)
-        for file in recipe.FOLDER.iterdir():  # a copy: the build must not depend on where this checkout lies
-            copy_if_different(file, hooks / file.name)
+        update_tree(recipe.FOLDER, hooks)  # a copy: the build must not depend on where this checkout lies
         build = self.work / "build"
         options = dict(recipe.CMAKE_OPTIONS, CMAKE_PROJECT_INCLUDE=hooks / "hook.cmake", CMAKE_INSTALL_PREFIX=prefix(),
                        TBB_ROOT_DIR=self.work / "tbb", PYSIDEUICBINARY=hooks / "pyside2-uic")

@@ -1,9 +1,10 @@
 # Precompiled headers.  Parsing headers is four fifths of the compile time of this code base; OpenUSD's own
 # precompiled headers are one per library (about a hundred, each with Boost.Python in it), which costs more than
-# it saves.  Three shared ones do better:
+# it saves.  Few shared ones do better:
 #   level 0  third-party headers only                   for the libraries of pxr/base
 #   level 1  + the headers of pxr/base                  for pxr/usd up to `usd`, pxr/imaging, Python modules of base
 #   level 2  + ar, sdf, pcp and usd                     for the schema libraries, usdImaging and their modules
+# and a narrow one for two Python modules that do not stand all of Boost.Python.
 # A library never gets a header that holds its own API macros: those differ inside and outside of it.
 set(HIPR_PCH_DIR "${CMAKE_CURRENT_LIST_DIR}")
 
@@ -28,7 +29,7 @@ function(hipr_precompile targets)
     hipr_add_precompiled(0 level0.h "arch")
     hipr_add_precompiled(1 level1.h "arch;${base}")
     hipr_add_precompiled(2 level2.h "arch;${base};${core}")
-    hipr_add_precompiled(gf gf.h "arch;${base}")
+    hipr_add_precompiled(narrow narrow.h "arch;${base}")
     foreach(target IN LISTS targets)
         get_target_property(type ${target} TYPE)
         get_target_property(source ${target} SOURCE_DIR)
@@ -38,8 +39,8 @@ function(hipr_precompile targets)
         string(REGEX REPLACE "^_" "" library "${target}")
         if(target IN_LIST base)
             set(level 0)
-        elseif(target STREQUAL "_gf")
-            set(level gf)
+        elseif(target STREQUAL "_gf" OR target STREQUAL "_pxOsd")
+            set(level narrow)
         elseif(library IN_LIST base OR target IN_LIST core)
             set(level 1)
         elseif(source MATCHES "/pxr/(usd|usdImaging)/")

@@ -1,5 +1,5 @@
-// For the Python module of `gf` alone. Its sources say `using namespace boost::python` and `str(self)`, which means
-// boost::python's operator only as long as its class `str` is not declared: no boost/python.hpp here.
+// For the Python modules of `gf` and `pxOsd`. Their sources say `using namespace boost::python` and `str(self)`, which
+// means boost::python's operator only as long as its class `str` is not declared: no boost/python.hpp here.
 #define BOOST_PYTHON_MAX_ARITY 20
 #include "pxr/pxr.h"
 
