@@ -74,42 +74,54 @@ vec4 sampleTextureNode(SceneRecord scene, InputNode node, vec2 st) {
     return sampleTexture(texture, st) * node.scale + node.bias;
 }
 
-// Evaluates inputs first..last (INPUT_*) of a material; the others keep their constants' place at 0. One loop with one
-// texture look-up inside keeps the kernel small: see docs/architecture.md.
-MaterialInputs evaluateInputs(SceneRecord scene, ShadingPoint point, uint material, uint first, uint last) {
-    MaterialInputs inputs;
-    inputs.diffuseColor = inputs.emissiveColor = inputs.specularColor = vec3(0.0);
-    inputs.metallic = inputs.roughness = inputs.clearcoat = inputs.clearcoatRoughness = 0.0;
-    inputs.opacity = 1.0;
-    inputs.opacityThreshold = 0.0;
-    inputs.ior = 1.5;
-    inputs.normal = vec3(0.0, 0.0, 1.0);
-    inputs.stEdges = vec4(0.0);
+// The constants of all inputs: straight loads of just the channels in use, no loop.
+MaterialInputs constantInputs(SceneRecord scene, uint material) {
     MaterialRef records = MaterialRef(scene.materials);
+    MaterialInputs inputs;
+    inputs.diffuseColor = records.v[material].constants[INPUT_DIFFUSE_COLOR].rgb;
+    inputs.emissiveColor = records.v[material].constants[INPUT_EMISSIVE_COLOR].rgb;
+    inputs.specularColor = records.v[material].constants[INPUT_SPECULAR_COLOR].rgb;
+    inputs.metallic = records.v[material].constants[INPUT_METALLIC].x;
+    inputs.roughness = records.v[material].constants[INPUT_ROUGHNESS].x;
+    inputs.clearcoat = records.v[material].constants[INPUT_CLEARCOAT].x;
+    inputs.clearcoatRoughness = records.v[material].constants[INPUT_CLEARCOAT_ROUGHNESS].x;
+    inputs.opacity = records.v[material].constants[INPUT_OPACITY].x;
+    inputs.opacityThreshold = records.v[material].constants[INPUT_OPACITY_THRESHOLD].x;
+    inputs.ior = records.v[material].constants[INPUT_IOR].x;
+    inputs.normal = records.v[material].constants[INPUT_NORMAL].xyz;
+    inputs.stEdges = vec4(0.0);
+    return inputs;
+}
+
+// Evaluates inputs first..last (INPUT_*) of a material; the others keep their constants. One loop with one texture
+// look-up inside keeps the kernel small: see docs/architecture.md.
+MaterialInputs evaluateInputs(SceneRecord scene, ShadingPoint point, uint material, uint first, uint last) {
+    MaterialInputs inputs = constantInputs(scene, material);
+    MaterialRef records = MaterialRef(scene.materials);
+    if ((records.v[material].flags & MATERIAL_HAS_NODES) == 0u) return inputs;
     InputNodeRef nodes = InputNodeRef(records.v[material].inputNodes);
     PrimvarCorners corners;
     uint cornersName = NO_INDEX;
     [[dont_unroll]] for (uint i = first; i <= last; ++i) {
-        vec4 value = records.v[material].constants[i];
         uint nodeIndex = records.v[material].nodes[i];
-        if (nodeIndex != NO_INDEX) {
-            InputNode node = nodes.v[nodeIndex];
-            if (node.primvar != cornersName) {
-                corners = findPrimvar(point.instance, point.geometry, point.primitive, point.vertices, node.primvar);
-                cornersName = node.primvar;
-            }
-            vec4 primvar = interpolatePrimvar(corners, point.uv);
-            if (node.texture != NO_INDEX) {
-                value = sampleTextureNode(scene, node, transformSt(node, corners.found ? primvar.xy : node.uvFallback));
-                if (i == INPUT_NORMAL) {
-                    vec2 st0 = transformSt(node, corners.a.xy);
-                    inputs.stEdges = vec4(transformSt(node, corners.b.xy) - st0, transformSt(node, corners.c.xy) - st0);
-                }
-            } else {
-                value = corners.found ? primvar : node.fallback;
-            }
-            value = selectChannel(value, node.channel);
+        if (nodeIndex == NO_INDEX) continue;
+        InputNode node = nodes.v[nodeIndex];
+        if (node.primvar != cornersName) {
+            corners = findPrimvar(point.instance, point.geometry, point.primitive, point.vertices, node.primvar);
+            cornersName = node.primvar;
         }
+        vec4 primvar = interpolatePrimvar(corners, point.uv);
+        vec4 value;
+        if (node.texture != NO_INDEX) {
+            value = sampleTextureNode(scene, node, transformSt(node, corners.found ? primvar.xy : node.uvFallback));
+            if (i == INPUT_NORMAL) {
+                vec2 st0 = transformSt(node, corners.a.xy);
+                inputs.stEdges = vec4(transformSt(node, corners.b.xy) - st0, transformSt(node, corners.c.xy) - st0);
+            }
+        } else {
+            value = corners.found ? primvar : node.fallback;
+        }
+        value = selectChannel(value, node.channel);
         switch (i) {
         case INPUT_DIFFUSE_COLOR: inputs.diffuseColor = value.rgb; break;
         case INPUT_EMISSIVE_COLOR: inputs.emissiveColor = value.rgb; break;

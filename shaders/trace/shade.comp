@@ -15,8 +15,34 @@ const uint RANDOM_LIGHT = 1u; // w, which light sampling leaves alone, decides o
 const uint RANDOM_BSDF = 2u;
 const uint RANDOM_SETS = 2u;
 
-vec4 randomVector(TraceRecord trace, PathState path, uint which) {
-    return sobol4(pathPixel(path), path.sampleIndex, RANDOM_SETS * path.event + which, trace.seed);
+// The part of PathState that a bounce works on.
+struct Path {
+    uint slot;
+    vec3 throughput;
+    float bsdfPdf;
+    uint event;
+    uint depth;
+    uvec2 pixel;
+    uint sampleIndex;
+};
+
+Path loadPath(TraceRecord trace, uint slot) {
+    PathRef paths = PathRef(trace.paths);
+    const uint pixel = paths.v[slot].pixel;
+    return Path(slot, paths.v[slot].throughput, paths.v[slot].bsdfPdf, paths.v[slot].event, paths.v[slot].depth,
+                uvec2(pixel & 0xffffu, pixel >> 16), paths.v[slot].sampleIndex);
+}
+
+void storePath(TraceRecord trace, Path path) {
+    PathRef paths = PathRef(trace.paths);
+    paths.v[path.slot].throughput = path.throughput;
+    paths.v[path.slot].bsdfPdf = path.bsdfPdf;
+    paths.v[path.slot].event = path.event;
+    paths.v[path.slot].depth = path.depth;
+}
+
+vec4 randomVector(TraceRecord trace, Path path, uint which) {
+    return sobol4(path.pixel, path.sampleIndex, RANDOM_SETS * path.event + which, trace.seed);
 }
 
 vec3 offsetTowards(Surface surface, vec3 direction) {
@@ -24,28 +50,22 @@ vec3 offsetTowards(Surface surface, vec3 direction) {
 }
 
 // Next event estimation: the light of one emitter, weighted against finding it by BSDF sampling.
-void sampleDirectLight(TraceRecord trace, SceneRecord scene, inout PathState path, uint slot, Surface surface, vec3 wo,
-                       vec4 u) {
+void sampleDirectLight(TraceRecord trace, SceneRecord scene, Path path, Surface surface, vec3 wo, vec4 u) {
     LightSample light;
     if (!sampleLight(scene, surface.position, u, light)) return;
     float bsdfPdf;
     const vec3 f = evalBsdfScaled(surface, wo, light.wi, light.lobeScale, bsdfPdf);
-    const vec3 contribution =
-        path.throughput * f * light.radiance * (lightMisWeight(light, bsdfPdf) / light.pdf);
-    if (!allFinite(contribution)) {
-        addRadiance(trace, path, contribution, false); // counts it
-        return;
-    }
-    if (all(lessThanEqual(contribution, vec3(0.0)))) return;
+    const vec3 contribution = path.throughput * f * light.radiance * (lightMisWeight(light, bsdfPdf) / light.pdf);
+    if (contribution == vec3(0.0)) return;
     const uint i = appendToQueue(trace, QUEUE_SHADOW + push.turn);
     RayRef(trace.shadowRays).v[i] =
         Ray(offsetTowards(surface, light.wi), 0.0, light.wi, light.distance * (1.0 - 1e-4));
     ShadowWorkRef(trace.shadowWork).v[i] =
-        ShadowWork(contribution, path.depth > 0u ? slot | SHADOW_INDIRECT : slot);
+        ShadowWork(contribution, path.depth > 0u ? path.slot | SHADOW_INDIRECT : path.slot);
 }
 
 // Samples the next direction. False: the path ends here.
-bool bounce(TraceRecord trace, inout PathState path, inout Ray ray, Surface surface, vec3 wo, float roulette) {
+bool bounce(TraceRecord trace, inout Path path, inout Ray ray, Surface surface, vec3 wo, float roulette) {
     vec3 wi, weight;
     float pdf;
     uint lobe;
@@ -55,8 +75,7 @@ bool bounce(TraceRecord trace, inout PathState path, inout Ray ray, Surface surf
     ++path.depth;
     ++path.event;
     if (path.depth >= trace.rouletteDepth) {
-        const float survival =
-            clamp(max(path.throughput.r, max(path.throughput.g, path.throughput.b)), 0.05, 1.0);
+        const float survival = clamp(max(path.throughput.r, max(path.throughput.g, path.throughput.b)), 0.05, 1.0);
         if (roulette >= survival) return false;
         path.throughput /= survival;
     }
@@ -65,7 +84,7 @@ bool bounce(TraceRecord trace, inout PathState path, inout Ray ray, Surface surf
 }
 
 // What a surface does with a path. False: the path ends here.
-bool scatter(TraceRecord trace, SceneRecord scene, inout PathState path, inout Ray ray, Hit hit, uint slot) {
+bool scatter(TraceRecord trace, SceneRecord scene, inout Path path, inout Ray ray, Hit hit) {
     const Surface surface = evaluateSurface(scene, hit, ray);
     const vec4 u = randomVector(trace, path, RANDOM_LIGHT);
     if (u.w >= surface.opacity) {
@@ -75,23 +94,23 @@ bool scatter(TraceRecord trace, SceneRecord scene, inout PathState path, inout R
         return true;
     }
     if (path.depth == 0u) {
-        path.alpha = 1.0;
-        path.albedo = surface.albedo;
+        PathRef(trace.paths).v[path.slot].alpha = 1.0;
+        PathRef(trace.paths).v[path.slot].albedo = surface.albedo;
     }
-    addRadiance(trace, path, path.throughput * surface.emission, path.depth > 1u);
+    addRadiance(trace, path.slot, path.throughput * surface.emission, path.depth > 1u);
     if (path.depth >= trace.maxDepth) return false;
     const vec3 wo = -ray.direction;
-    sampleDirectLight(trace, scene, path, slot, surface, wo, u);
+    sampleDirectLight(trace, scene, path, surface, wo, u);
     return bounce(trace, path, ray, surface, wo, u.w / surface.opacity); // uniform again
 }
 
 // The light a ray has run into by `distance`, and the sky if it met nothing.
-void collectLight(TraceRecord trace, SceneRecord scene, inout PathState path, Ray ray, float distance, bool miss) {
+void collectLight(TraceRecord trace, SceneRecord scene, Path path, Ray ray, float distance, bool miss) {
     const bool cameraRay = path.depth == 0u;
     vec3 light = lightsAlongRay(scene, ray, distance, cameraRay, path.bsdfPdf);
-    if (cameraRay && any(greaterThan(light, vec3(0.0)))) path.alpha = 1.0;
+    if (cameraRay && any(greaterThan(light, vec3(0.0)))) PathRef(trace.paths).v[path.slot].alpha = 1.0;
     if (miss) light += environmentRadiance(scene, ray.direction, cameraRay, path.bsdfPdf);
-    addRadiance(trace, path, path.throughput * light, path.depth > 1u);
+    addRadiance(trace, path.slot, path.throughput * light, path.depth > 1u);
 }
 
 void main() {
@@ -99,18 +118,16 @@ void main() {
     const uint i = gl_GlobalInvocationID.x;
     if (i >= HeaderRef(trace.headers).v[QUEUE_RAYS + push.turn].count) return;
     const SceneRecord scene = SceneRef(trace.scene).v;
-    const uint slot = SlotRef(trace.raySlots[push.turn]).v[i];
     const Hit hit = HitRef(trace.hits).v[i];
     Ray ray = RayRef(trace.rays[push.turn]).v[i];
-    PathState path = PathRef(trace.paths).v[slot];
+    Path path = loadPath(trace, SlotRef(trace.raySlots[push.turn]).v[i]);
 
     const bool miss = hit.instance == NO_INDEX;
     collectLight(trace, scene, path, ray, miss ? ray.tMax : hit.t, miss);
-    const bool alive = !miss && scatter(trace, scene, path, ray, hit, slot);
-    PathRef(trace.paths).v[slot] = path;
-    if (!alive) return;
+    if (miss || !scatter(trace, scene, path, ray, hit)) return;
+    storePath(trace, path);
     const uint other = 1u - push.turn;
     const uint j = appendToQueue(trace, QUEUE_RAYS + other);
     RayRef(trace.rays[other]).v[j] = ray;
-    SlotRef(trace.raySlots[other]).v[j] = slot;
+    SlotRef(trace.raySlots[other]).v[j] = path.slot;
 }

@@ -35,34 +35,26 @@ uint appendToQueue(TraceRecord trace, uint queue) {
     return subgroupBroadcastFirst(first) + subgroupBallotExclusiveBitCount(active_);
 }
 
-uvec2 pathPixel(PathState path) {
-    return uvec2(path.pixel & 0xffffu, path.pixel >> 16);
-}
-
 bool allFinite(vec3 v) {
     return !(any(isnan(v)) || any(isinf(v)));
 }
 
-// Adds radiance to a path. A value that is not finite is dropped and counted: one broken material or texel must not
-// blacken a pixel for good.
-void addRadiance(TraceRecord trace, inout PathState path, vec3 value, bool indirect) {
-    if (!allFinite(value)) {
+// Adds radiance to a path, in memory: most events add none, so paths do not carry their sums around. A value that is
+// not finite is dropped and counted: one broken material or texel must not blacken a pixel for good.
+void addRadiance(TraceRecord trace, uint slot, vec3 value, bool indirect) {
+    if (value == vec3(0.0)) return;
+    PathRef paths = PathRef(trace.paths);
+    if (!allFinite(value))
         atomicAdd(CountersRef(trace.counters).v.nonFinite, 1u);
-        return;
-    }
-    if (indirect)
-        path.indirect += value;
+    else if (indirect)
+        paths.v[slot].indirect += value;
     else
-        path.radiance += value;
+        paths.v[slot].radiance += value;
 }
 
 // Adds what a shadow ray carried.
 void arrive(TraceRecord trace, ShadowWork work) {
-    const uint slot = work.slot & ~SHADOW_INDIRECT;
-    if ((work.slot & SHADOW_INDIRECT) != 0u)
-        PathRef(trace.paths).v[slot].indirect += work.contribution;
-    else
-        PathRef(trace.paths).v[slot].radiance += work.contribution;
+    addRadiance(trace, work.slot & ~SHADOW_INDIRECT, work.contribution, (work.slot & SHADOW_INDIRECT) != 0u);
 }
 
 // Just behind a surface that was passed through. The origin stays, so that pdfs of lights further along the ray remain
