@@ -28,11 +28,6 @@ VkDeviceAddress albedoTable() {
 
 } // namespace
 
-glm::vec3 direction(double cosine, double azimuth) {
-    const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
-    return glm::vec3(glm::dvec3(sine * std::cos(azimuth), sine * std::sin(azimuth), cosine));
-}
-
 std::vector<Outcome> runBsdf(const SurfaceParameters& parameters, const std::vector<glm::vec3>& wo,
                              const std::vector<glm::vec3>& wi, const std::vector<glm::vec4>& u) {
     SurfaceParameters p = parameters;

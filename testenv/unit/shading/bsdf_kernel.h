@@ -41,9 +41,6 @@ std::vector<Outcome> runBsdf(const SurfaceParameters& parameters, const std::vec
 std::vector<Outcome> runBsdf(const SurfaceParameters& parameters, const glm::vec3& wo,
                              const std::vector<glm::vec3>& wi);
 
-/// A direction by the cosine of its polar angle and its azimuth.
-glm::vec3 direction(double cosine, double azimuth);
-
 /// A material with a name for messages, and the materials that the tests go through.
 struct NamedSurface {
     const char* name;

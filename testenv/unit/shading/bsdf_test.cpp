@@ -1,42 +1,20 @@
-#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "testenv/unit/sampling/statistics.h"
 #include "testenv/unit/shading/bsdf_kernel.h"
+#include "testenv/unit/shading/sphere_grid.h"
 
 namespace hipr::test {
 namespace {
 
 constexpr double Pi = 3.14159265358979323846;
 
-/// The sphere in bins of polar angle by azimuth, each with a grid of points for quadrature.
-struct SphereGrid {
-    static constexpr int Rows = 16, Columns = 24, Fine = 20;
-    static constexpr int Bins = Rows * Columns;
-    std::vector<glm::vec3> points;
-    std::vector<double> areas; ///< solid angle of each point
-
-    SphereGrid() {
-        for (int bin = 0; bin < Bins; ++bin)
-            for (int k = 0; k < Fine * Fine; ++k) {
-                const double polar = Pi * (bin / Columns + (k / Fine + 0.5) / Fine) / Rows;
-                const double turn = (bin % Columns + (k % Fine + 0.5) / Fine) / Columns;
-                points.push_back(direction(std::cos(polar), 2.0 * Pi * turn));
-                areas.push_back(std::sin(polar) * 2.0 * Pi * Pi / (double(Bins) * Fine * Fine));
-            }
-    }
-    static size_t binOf(const glm::vec3& d) {
-        const int row = std::min(int(std::acos(std::clamp(double(d.z), -1.0, 1.0)) / Pi * Rows), Rows - 1);
-        const double turn = std::atan2(double(d.y), double(d.x)) / (2.0 * Pi);
-        return size_t(row * Columns + std::min(int((turn < 0 ? turn + 1.0 : turn) * Columns), Columns - 1));
-    }
-    static const SphereGrid& get() {
-        static const SphereGrid grid;
-        return grid;
-    }
-};
+const SphereGrid& sphere() {
+    static const SphereGrid grid(16, 24, 20);
+    return grid;
+}
 
 /// Everything the tests want to know about one surface from one direction.
 struct Survey {
@@ -49,20 +27,20 @@ struct Survey {
 };
 
 Survey survey(const SurfaceParameters& parameters, const glm::vec3& wo) {
-    const SphereGrid& grid = SphereGrid::get();
-    const std::vector<Outcome> outcomes = runBsdf(parameters, wo, grid.points);
+    const SphereGrid& grid = sphere();
+    const std::vector<Outcome> outcomes = runBsdf(parameters, wo, grid.points());
     Survey s;
     s.samples = outcomes.size();
-    std::vector<double> counts(SphereGrid::Bins), expected(SphereGrid::Bins);
+    std::vector<double> counts(size_t(grid.bins())), expected(size_t(grid.bins()));
     const double n = double(s.samples);
     for (size_t i = 0; i < outcomes.size(); ++i) {
         const Outcome& o = outcomes[i];
-        expected[i / (SphereGrid::Fine * SphereGrid::Fine)] += double(o.pdf) * grid.areas[i] * n;
-        s.pdfIntegral += double(o.pdf) * grid.areas[i];
-        s.albedo += glm::dvec3(o.f) * grid.areas[i];
+        expected[grid.binOfPoint(i)] += double(o.pdf) * grid.area(i) * n;
+        s.pdfIntegral += double(o.pdf) * grid.area(i);
+        s.albedo += glm::dvec3(o.f) * grid.area(i);
         s.finite = s.finite && std::isfinite(o.f.x + o.f.y + o.f.z + o.pdf + o.sampledPdf + o.weight.x);
         if (o.sampledPdf > 0.f) {
-            ++counts[SphereGrid::binOf(o.sampled)];
+            ++counts[grid.binOf(o.sampled)];
             s.acceptedPart += 1.0 / n;
         }
         if (o.failed()) continue;
