@@ -18,7 +18,7 @@ import zipfile
 from pathlib import Path
 from typing import Iterator, List
 
-from . import openusd_patches, openusd_recipe as recipe, paths
+from . import openusd_finish, openusd_patches, openusd_recipe as recipe, paths
 from .console import Timing, duration, processors, run, say
 from .errors import HiprError
 from .progress import NinjaProgress
@@ -178,7 +178,7 @@ class Builder:
         for part in ("include", "lib"):
             shutil.copytree(self.work / "tbb" / part, target / part, dirs_exist_ok=True)
         if stage == FULL:
-            make_relocatable(target, self.work)
+            openusd_finish.finish(target, self.work / "tbb", self.log)
 
 
 # --- pieces -----------------------------------------------------------------------------------------------------------
@@ -269,15 +269,6 @@ def update_tree(source: Path, target: Path) -> None:
     for path in sorted(wanted):
         (target / path).parent.mkdir(parents=True, exist_ok=True)
         copy_if_different(source / path, target / path)
-
-
-def make_relocatable(target: Path, work: Path) -> None:
-    """Makes the CMake targets speak of their own prefix, not of the folders they were built in."""
-    for path in (target / "cmake").glob("pxrTargets*.cmake"):
-        text = path.read_text(encoding="utf-8")
-        for folder in (work / "tbb", target):
-            text = text.replace(str(folder), "${_IMPORT_PREFIX}")
-        path.write_text(text, encoding="utf-8")
 
 
 def copy_if_different(source: Path, target: Path) -> None:

@@ -3,6 +3,8 @@
 import io
 import json
 import os
+import shutil
+import subprocess
 import tarfile
 import tempfile
 import unittest
@@ -11,7 +13,7 @@ from contextlib import redirect_stdout
 from pathlib import Path
 from unittest import mock
 
-from hipr import openusd, openusd_patches, openusd_recipe
+from hipr import openusd, openusd_finish, openusd_patches, openusd_recipe
 from hipr.errors import HiprError
 
 
@@ -146,12 +148,31 @@ class Unpacking(TemporaryFolder):
         openusd.copy_if_different(source, target)
         self.assertEqual(target.read_text(), "y")
 
+
+class Finishing(TemporaryFolder):
     def test_cmake_targets_name_their_own_prefix(self):
         path = self.folder / "cmake/pxrTargets.cmake"
         path.parent.mkdir()
         path.write_text(f'"{self.folder}/include;/work/tbb/include"')
-        openusd.make_relocatable(self.folder, Path("/work"))
+        openusd_finish.make_relocatable(self.folder, Path("/work/tbb"))
         self.assertEqual(path.read_text(), '"${_IMPORT_PREFIX}/include;${_IMPORT_PREFIX}/include"')
+
+    def test_the_cmake_package_finds_boost_once(self):
+        path = self.folder / "pxrConfig.cmake"
+        path.write_text("include(targets)\n")
+        openusd_finish.find_boost(path)
+        openusd_finish.find_boost(path)
+        self.assertEqual(path.read_text(), openusd_finish.BOOST + "include(targets)\n")
+
+    def test_the_sky_is_a_valid_white_picture(self):
+        path = self.folder / "textures/sky.exr"
+        openusd_finish.write_sky(path)
+        if not shutil.which("oiiotool"):
+            self.skipTest("oiiotool is not installed")
+        report = subprocess.run(["oiiotool", "--info", "--stats", str(path)], capture_output=True, text=True)
+        self.assertRegex(report.stdout, r"16 x +8, 3 channel, half openexr")
+        self.assertRegex(report.stdout, r"Stats Min: 1\.0+ 1\.0+ 1\.0+")
+        self.assertRegex(report.stdout, r"Stats Max: 1\.0+ 1\.0+ 1\.0+")
 
 
 class Archives(TemporaryFolder):
