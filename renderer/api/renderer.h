@@ -51,7 +51,7 @@ struct Progress {
     uint64_t nearestRays = 0;   ///< of camera, bounces, and walks through transparent surfaces
     uint64_t shadowRays = 0;
     double seconds = 0;         ///< time spent in render() since the last restart
-    bool converged = false;
+    bool converged = false;     ///< no more will come: all samples are done, or there is nothing that can be rendered
 };
 
 class Renderer {

@@ -75,6 +75,13 @@ template <class F> bool RendererImpl::guarded(F&& work) {
 void RendererImpl::fail(const std::string& reason) {
     _failed = true;
     _device->messages()(Severity::Error, "", reason);
+    finish();
+}
+
+/// Hosts that wait for convergence must not wait for what will never come.
+void RendererImpl::finish() {
+    std::lock_guard<std::mutex> lock(_progressMutex);
+    _progress.converged = true;
 }
 
 void RendererImpl::selectTraversal() {
@@ -167,7 +174,8 @@ bool RendererImpl::setup() {
 
 bool RendererImpl::renderBatch() {
     return guarded([&] {
-        if (cancelled() || !setup()) return false;
+        if (cancelled()) return false;
+        if (!setup()) return finish(), false;
         // Compiling may take seconds; the host stays in charge meanwhile.
         if (!_tracer.ready(std::chrono::milliseconds(50))) return true;
         return _firstHitsDone < _film.pixels() ? renderFirstHits() : renderSamples();

@@ -33,12 +33,14 @@ public:
     bool readAov(const AovRequest& aov, void* dst, size_t words) override;
     MemoryReport memory() const override;
 
+    bool validation() const { return _device->validation(); }
     uint64_t validationErrors() const { return _device->validationErrors(); }
     const Settings& settings() const { return _settings; }
 
 private:
     template <class F> bool guarded(F&& work);
     void fail(const std::string& reason);
+    void finish();
     void restart();
     bool setup();
     void selectTraversal();

@@ -10,11 +10,13 @@ using namespace hipr::test;
 TEST(Robustness, NothingToRender) {
     Stage stage;
     EXPECT_FALSE(stage.renderer->renderBatch()); // no film, no camera
+    EXPECT_TRUE(stage.renderer->progress().converged);
     stage.film(0, 0);
     stage.edit.setCamera(lookAt({0, 0, 4}, {0, 0, 0}));
     stage.render();
     float none;
     EXPECT_TRUE(stage.renderer->readAov({AovKind::Color, {}}, &none, 0));
+    EXPECT_TRUE(stage.renderer->progress().converged);
     stage.film(8, 8); // an empty scene is a picture too
     stage.render();
     EXPECT_TRUE(stage.renderer->progress().converged);
@@ -29,6 +31,7 @@ TEST(Robustness, ACameraThatCannotBeInverted) {
     stage.edit.setCamera(camera);
     stage.render();
     stage.render();
+    EXPECT_TRUE(stage.renderer->progress().converged); // or hosts would wait forever
     const std::vector<Message> messages = stage.messages();
     EXPECT_EQ(std::count_if(messages.begin(), messages.end(),
                             [](const Message& m) { return m.severity == Severity::Error; }),
