@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "shaders/shared/intersect.h"
 
@@ -11,57 +12,92 @@ namespace {
 /// Embree's distances differ from canonical ones by rounding; its interval is kept this much longer.
 constexpr float LOOSENED = 1.0f + 8.0f * gpu::BOX_ALLOWANCE;
 /// Radius in which neighbours are looked for, in allowances.
-constexpr float NEIGHBOURHOOD = 2.0f * gpu::EDGE_RADIUS;
+constexpr float NEIGHBOURHOOD = 4.0f;
+
+struct Proposal {
+    uint32_t instance, primitive;
+    float t; ///< Embree's
+};
+
+/// Proposals at Embree's nearest distance, give or take rounding.
+struct Proposals {
+    static constexpr uint32_t CAPACITY = 8;
+    Proposal all[CAPACITY];
+    uint32_t count = 0;
+    bool overflow = false;
+    float nearest = std::numeric_limits<float>::infinity();
+
+    void add(const Proposal& p) {
+        if (p.t * LOOSENED < nearest) count = 0, overflow = false; // all others are behind
+        nearest = std::min(nearest, p.t);
+        if (count < CAPACITY)
+            all[count++] = p;
+        else
+            overflow = true;
+    }
+};
 
 /// One ray on its way; Embree hands the context through to every callback.
 struct Query {
     RTCIntersectContext context; // first: callbacks cast back
     const EmbreeScene* scene;
     gpu::Ray ray;
-    gpu::BoxRay worldBox;
     uint32_t mask;
     gpu::Hit best;
-    bool besideEdge = false; ///< of `best`: another triangle may share the point
+    bool onEdge = false; ///< of `best`
     float turnedDown =
-        std::numeric_limits<float>::infinity(); ///< nearest candidate the canonical test did not confirm
+        std::numeric_limits<float>::infinity(); ///< nearest proposal the canonical test did not confirm
+    bool collecting = true;                     ///< proposals are tested at the end, not on the way
+    Proposals proposals;
 
     // The instance being traversed, and the ray in its space.
     uint32_t instance = gpu::NO_INDEX;
-    glm::vec3 direction;
+    glm::vec3 origin, direction;
+
+    // What canonical tests need; only made for instances with something to test.
+    uint32_t prepared = gpu::NO_INDEX;
     gpu::TriangleRay triangleRay;
     gpu::BoxRay box;
-    float allowance;
     float entry, exit;
 
     Query(const EmbreeScene& s, const gpu::Ray& r, uint32_t m)
-        : scene(&s), ray(r), worldBox(gpu::boxRay(r.origin, r.direction, s.table().extent)),
-          mask(m), best{gpu::NO_INDEX, gpu::NO_INDEX, r.tMax, 0.0f, 0.0f} {
+        : scene(&s), ray(r), mask(m), best{gpu::NO_INDEX, gpu::NO_INDEX, r.tMax, 0.0f, 0.0f} {
         rtcInitIntersectContext(&context);
     }
 
     bool enter(uint32_t index);
-    bool consider(const GeometryView& g, uint32_t primitive, float proposed);
+    void prepare();
+    bool consider(uint32_t primitive, float proposed);
     bool found() const { return best.instance != gpu::NO_INDEX; }
+    bool doubtful() const { return onEdge || turnedDown <= best.t * LOOSENED || proposals.overflow; }
 };
 
-/// Moves to an instance; false when the ray's mask or the canonical box rule it out.
+/// Moves to an instance; false when the ray does not see it.
 bool Query::enter(uint32_t index) {
+    if (instance == index) return true;
     const gpu::BvhInstance& record = scene->table().records[index];
     if (!(record.mask & mask)) return false;
-    gpu::boxInterval(worldBox, record.lo, record.hi, entry, exit);
-    if (!(std::max(entry, ray.tMin) <= std::min(exit, best.t))) return false;
     instance = index;
-    const glm::vec3 origin = gpu::mapPoint(record.worldToObject, ray.origin);
+    origin = gpu::mapPoint(record.worldToObject, ray.origin);
     direction = gpu::mapDirection(record.worldToObject, ray.direction);
+    return true;
+}
+
+void Query::prepare() {
+    if (prepared == instance) return;
+    prepared = instance;
+    const gpu::BvhInstance& record = scene->table().records[instance];
+    gpu::boxInterval(gpu::boxRay(ray.origin, ray.direction, scene->table().extent), record.lo, record.hi,
+                     entry, exit);
     triangleRay = gpu::triangleRay(origin, direction);
     box = gpu::boxRay(origin, direction, record.extent);
-    allowance = gpu::rayAllowance(origin, record.extent);
-    return true;
 }
 
 /// Tests one triangle of the current instance; true when it is the best hit so far. `proposed` is Embree's
 /// distance.
-bool Query::consider(const GeometryView& g, uint32_t primitive, float proposed) {
+bool Query::consider(uint32_t primitive, float proposed) {
+    prepare();
+    const GeometryView& g = scene->geometryOf(instance).view;
     const glm::uvec3 i = g.triangles[primitive];
     const glm::vec3 &a = g.positions[i.x], &b = g.positions[i.y], &c = g.positions[i.z];
     float t, u, v;
@@ -72,7 +108,7 @@ bool Query::consider(const GeometryView& g, uint32_t primitive, float proposed) 
     if (!(t > ray.tMin) || !gpu::before(t, instance, primitive, best.t, best.instance, best.primitive))
         return false;
     best = {instance, primitive, t, u, v};
-    besideEdge = gpu::besideEdge(direction, allowance, a, b, c, u, v);
+    onEdge = gpu::onEdge(u, v);
     return true;
 }
 
@@ -84,51 +120,84 @@ RTCRay embreeRay(const glm::vec3& o, const glm::vec3& d, float tMin, float tMax)
 
 void filterIntersect(const RTCFilterFunctionNArguments* args) {
     Query& q = *reinterpret_cast<Query*>(args->context);
-    const auto& g = *static_cast<const EmbreeGeometry*>(args->geometryUserPtr);
     RTCRay& ray = *reinterpret_cast<RTCRay*>(args->ray);
-    const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
-    if (q.consider(g.view, hit.primID, ray.tfar))
+    const uint32_t primitive = reinterpret_cast<const RTCHit*>(args->hit)->primID;
+    if (q.collecting) {
+        q.proposals.add({q.instance, primitive, ray.tfar});
+        ray.tfar = q.proposals.nearest * LOOSENED;
+    } else if (q.consider(primitive, ray.tfar)) {
         ray.tfar = q.best.t * LOOSENED;
-    else
+    } else {
         args->valid[0] = 0;
+    }
 }
 
 void filterOccluded(const RTCFilterFunctionNArguments* args) {
     Query& q = *reinterpret_cast<Query*>(args->context);
-    const auto& g = *static_cast<const EmbreeGeometry*>(args->geometryUserPtr);
-    const auto& ray = *reinterpret_cast<const RTCRay*>(args->ray);
-    const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
-    if (!q.consider(g.view, hit.primID, ray.tfar)) args->valid[0] = 0;
+    const float t = reinterpret_cast<const RTCRay*>(args->ray)->tfar;
+    const uint32_t primitive = reinterpret_cast<const RTCHit*>(args->hit)->primID;
+    if (q.collecting)
+        q.proposals.add({q.instance, primitive, t});
+    else if (!q.consider(primitive, t))
+        args->valid[0] = 0;
+}
+
+/// Traces the ray through one instance; `tFar` is Embree's interval, updated.
+void intersectOne(Query& q, uint32_t instance, float& tFar) {
+    if (!q.enter(instance)) return;
+    RTCRayHit inner;
+    inner.ray = embreeRay(q.origin, q.direction, q.ray.tMin, tFar);
+    inner.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(q.scene->geometryOf(instance).scene, &q.context, &inner);
+    tFar = inner.ray.tfar;
+}
+
+void occludedOne(Query& q, uint32_t instance, float& tFar) {
+    if (!q.enter(instance)) return;
+    RTCRay inner = embreeRay(q.origin, q.direction, q.ray.tMin, tFar);
+    rtcOccluded1(q.scene->geometryOf(instance).scene, &q.context, &inner);
+    tFar = inner.tfar;
 }
 
 void intersectInstance(const RTCIntersectFunctionNArguments* args) {
-    Query& q = *reinterpret_cast<Query*>(args->context);
-    if (!args->valid[0] || !q.enter(args->primID)) return;
-    auto& outer = *reinterpret_cast<RTCRayHit*>(args->rayhit);
-    RTCRayHit inner;
-    inner.ray = embreeRay(q.triangleRay.origin, q.direction, q.ray.tMin, outer.ray.tfar);
-    inner.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(q.scene->geometryOf(args->primID).scene, &q.context, &inner);
-    outer.ray.tfar = inner.ray.tfar;
+    if (!args->valid[0]) return;
+    intersectOne(*reinterpret_cast<Query*>(args->context), args->primID,
+                 reinterpret_cast<RTCRayHit*>(args->rayhit)->ray.tfar);
 }
 
 void occludedInstance(const RTCOccludedFunctionNArguments* args) {
-    Query& q = *reinterpret_cast<Query*>(args->context);
-    if (!args->valid[0] || !q.enter(args->primID)) return;
-    auto& outer = *reinterpret_cast<RTCRay*>(args->ray);
-    RTCRay inner = embreeRay(q.triangleRay.origin, q.direction, q.ray.tMin, outer.tfar);
-    rtcOccluded1(q.scene->geometryOf(args->primID).scene, &q.context, &inner);
-    outer.tfar = inner.tfar;
+    if (!args->valid[0]) return;
+    occludedOne(*reinterpret_cast<Query*>(args->context), args->primID,
+                reinterpret_cast<RTCRay*>(args->ray)->tfar);
 }
 
-bool nearTriangle(RTCPointQueryFunctionArguments* args) {
-    Query& q = *static_cast<Query*>(args->userPtr);
-    q.consider(q.scene->geometryOf(q.instance).view, args->primID, std::numeric_limits<float>::infinity());
-    return false;
+/// Walks the whole scene; the top level only when there is something to choose from.
+void intersectAll(Query& q) {
+    RTCRayHit outer;
+    outer.ray = embreeRay(q.ray.origin, q.ray.direction, q.ray.tMin, q.ray.tMax * LOOSENED);
+    outer.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    if (q.scene->table().records.size() == 1)
+        intersectOne(q, 0, outer.ray.tfar);
+    else
+        rtcIntersect1(q.scene->top(), &q.context, &outer);
+}
+
+void occludedAll(Query& q) {
+    RTCRay outer = embreeRay(q.ray.origin, q.ray.direction, q.ray.tMin, q.ray.tMax * LOOSENED);
+    if (q.scene->table().records.size() == 1)
+        occludedOne(q, 0, outer.tfar);
+    else
+        rtcOccluded1(q.scene->top(), &q.context, &outer);
 }
 
 RTCPointQuery around(const glm::vec3& p, float radius) {
     return {p.x, p.y, p.z, 0.0f, radius};
+}
+
+bool nearTriangle(RTCPointQueryFunctionArguments* args) {
+    Query& q = *static_cast<Query*>(args->userPtr);
+    q.consider(args->primID, std::numeric_limits<float>::infinity());
+    return false;
 }
 
 struct Neighbourhood {
@@ -140,7 +209,10 @@ bool nearInstance(RTCPointQueryFunctionArguments* args) {
     const auto& n = *static_cast<Neighbourhood*>(args->userPtr);
     Query& q = *n.query;
     if (!q.enter(args->primID)) return false;
-    RTCPointQuery point = around(q.triangleRay.origin + n.t * q.direction, NEIGHBOURHOOD * q.allowance);
+    const glm::vec3& origin = q.origin;
+    const float radius =
+        NEIGHBOURHOOD * gpu::rayAllowance(origin, q.scene->table().records[args->primID].extent);
+    RTCPointQuery point = around(q.origin + n.t * q.direction, radius);
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     rtcPointQuery(q.scene->geometryOf(args->primID).scene, &point, &context, nearTriangle, &q);
@@ -149,13 +221,77 @@ bool nearInstance(RTCPointQueryFunctionArguments* args) {
 
 /// Considers every triangle around distance t.
 void considerAround(Query& q, float t) {
-    const glm::vec3 p = q.ray.origin + t * q.ray.direction;
     const float radius = NEIGHBOURHOOD * gpu::rayAllowance(q.ray.origin, q.scene->table().extent);
-    RTCPointQuery point = around(p, radius);
+    RTCPointQuery point = around(q.ray.origin + t * q.ray.direction, radius);
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     Neighbourhood n{&q, t};
     rtcPointQuery(q.scene->top(), &point, &context, nearInstance, &n);
+}
+
+/// Tests what was collected.
+void considerProposals(Query& q) {
+    for (uint32_t i = 0; i < q.proposals.count; ++i) {
+        const Proposal& p = q.proposals.all[i];
+        if (p.t <= q.proposals.nearest * LOOSENED && q.enter(p.instance)) q.consider(p.primitive, p.t);
+    }
+    q.collecting = false;
+}
+
+gpu::Hit decideNearest(Query& q) {
+    if (q.proposals.count == 0) return q.best;
+    considerProposals(q);
+    if (q.found() && !q.doubtful()) return q.best;
+    intersectAll(q);
+    if (q.turnedDown <= q.best.t * LOOSENED && std::isfinite(q.turnedDown)) considerAround(q, q.turnedDown);
+    if (q.onEdge) considerAround(q, q.best.t);
+    return q.best;
+}
+
+bool decideOccluded(Query& q) {
+    if (q.proposals.count == 0) return false;
+    considerProposals(q);
+    if (q.found()) return true;
+    occludedAll(q);
+    if (!q.found() && std::isfinite(q.turnedDown)) considerAround(q, q.turnedDown);
+    return q.found();
+}
+
+void prefetchTriangle(const Query& q) {
+    for (uint32_t i = 0; i < q.proposals.count; ++i) {
+        const Proposal& p = q.proposals.all[i];
+        __builtin_prefetch(&q.scene->geometryOf(p.instance).view.triangles[p.primitive]);
+    }
+}
+
+void prefetchCorners(const Query& q) {
+    for (uint32_t i = 0; i < q.proposals.count; ++i) {
+        const Proposal& p = q.proposals.all[i];
+        const GeometryView& g = q.scene->geometryOf(p.instance).view;
+        for (int k = 0; k < 3; ++k)
+            __builtin_prefetch(&g.positions[g.triangles[p.primitive][k]]);
+    }
+}
+
+/// Collects proposals for some rays with `walk`, then lets `decide` test them.
+template <class Walk, class Decide>
+void inBatches(const EmbreeScene& scene, uint32_t mask, const gpu::Ray* rays, uint32_t count,
+               const Walk& walk, const Decide& decide) {
+    constexpr uint32_t BATCH = 32;
+    constexpr size_t LEAD = 2; // rays until the second prefetch may read what the first one fetched
+    std::vector<Query> batch;
+    batch.reserve(BATCH);
+    for (uint32_t first = 0; first < count; first += BATCH) {
+        batch.clear();
+        for (uint32_t i = first; i < std::min(first + BATCH, count); ++i) {
+            Query& q = batch.emplace_back(scene, rays[i], mask);
+            if (gpu::traceable(q.ray.origin, q.ray.direction, q.ray.tMin, q.ray.tMax)) walk(q);
+            prefetchTriangle(q);
+            if (batch.size() > LEAD) prefetchCorners(batch[batch.size() - 1 - LEAD]);
+        }
+        for (uint32_t i = 0; i < batch.size(); ++i)
+            decide(first + i, batch[i]);
+    }
 }
 
 } // namespace
@@ -164,27 +300,16 @@ EmbreeCallbacks embreeCallbacks() {
     return {intersectInstance, occludedInstance, filterIntersect, filterOccluded};
 }
 
-gpu::Hit embreeNearest(const EmbreeScene& scene, const gpu::Ray& ray, uint32_t mask) {
-    if (!gpu::traceable(ray.origin, ray.direction, ray.tMin, ray.tMax))
-        return {gpu::NO_INDEX, gpu::NO_INDEX, ray.tMax, 0.0f, 0.0f};
-    Query q(scene, ray, mask);
-    RTCRayHit outer;
-    outer.ray = embreeRay(ray.origin, ray.direction, ray.tMin, ray.tMax * LOOSENED);
-    outer.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene.top(), &q.context, &outer);
-    if (q.turnedDown <= q.best.t * LOOSENED && std::isfinite(q.turnedDown)) considerAround(q, q.turnedDown);
-    if (q.besideEdge) considerAround(q, q.best.t);
-    return q.best;
+void embreeNearest(const EmbreeScene& scene, uint32_t mask, const gpu::Ray* rays, uint32_t count,
+                   gpu::Hit* hits) {
+    inBatches(scene, mask, rays, count, intersectAll,
+              [&](uint32_t i, Query& q) { hits[i] = decideNearest(q); });
 }
 
-bool embreeOccluded(const EmbreeScene& scene, const gpu::Ray& ray, uint32_t mask) {
-    if (!gpu::traceable(ray.origin, ray.direction, ray.tMin, ray.tMax)) return false;
-    Query q(scene, ray, mask);
-    RTCRay outer = embreeRay(ray.origin, ray.direction, ray.tMin, ray.tMax * LOOSENED);
-    rtcOccluded1(scene.top(), &q.context, &outer);
-    if (!q.found() && q.turnedDown <= ray.tMax * LOOSENED && std::isfinite(q.turnedDown))
-        considerAround(q, q.turnedDown);
-    return q.found();
+void embreeOccluded(const EmbreeScene& scene, uint32_t mask, const gpu::Ray* rays, uint32_t count,
+                    uint32_t* blocked) {
+    inBatches(scene, mask, rays, count, occludedAll,
+              [&](uint32_t i, Query& q) { blocked[i] = decideOccluded(q) ? 1u : 0u; });
 }
 
 } // namespace hipr

@@ -112,6 +112,9 @@ void EmbreeScene::buildTop() {
     _table = makeInstanceTable(_instances, [this](uint32_t slot) {
         return slot < _geometries.size() && _geometries[slot] ? _geometries[slot]->bounds : Bounds{};
     });
+    _geometryOf.assign(_instances.size(), nullptr);
+    for (size_t i = 0; i < _instances.size(); ++i)
+        if (_table.records[i].mask) _geometryOf[i] = _geometries[_instances[i].geometry].get();
     rtcSetGeometryUserPrimitiveCount(_instanceGeometry, unsigned(_instances.size()));
     rtcCommitGeometry(_instanceGeometry);
     rtcCommitScene(_top);

@@ -45,9 +45,7 @@ public:
     RTCScene top() const { return _top; }
     const InstanceTable& table() const { return _table; }
     /// The geometry behind an instance with a mask.
-    const EmbreeGeometry& geometryOf(uint32_t instance) const {
-        return *_geometries[_instances[instance].geometry];
-    }
+    const EmbreeGeometry& geometryOf(uint32_t instance) const { return *_geometryOf[instance]; }
     uint64_t bytes() const { return _bytes.load(std::memory_order_relaxed); }
 
 private:
@@ -62,6 +60,7 @@ private:
     std::vector<std::unique_ptr<EmbreeGeometry>> _geometries; ///< by slot; null: free
     std::vector<gpu::InstanceRecord> _instances;
     InstanceTable _table;
+    std::vector<const EmbreeGeometry*> _geometryOf; ///< by instance
     bool _instancesChanged = true;
     std::atomic<int64_t> _bytes{0};
 };

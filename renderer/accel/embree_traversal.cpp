@@ -27,15 +27,15 @@ public:
 
     void nearest(const TraceQueue& queue) override {
         auto* hits = queue.results->mapped<gpu::Hit>();
-        forEachRay(queue, [&](uint32_t i, const gpu::Ray& ray) {
-            hits[i] = embreeNearest(_scene, ray, queue.mask);
+        forRays(queue, [&](uint32_t first, uint32_t count, const gpu::Ray* rays) {
+            embreeNearest(_scene, queue.mask, rays, count, hits + first);
         });
     }
 
     void occluded(const TraceQueue& queue) override {
         auto* blocked = queue.results->mapped<uint32_t>();
-        forEachRay(queue, [&](uint32_t i, const gpu::Ray& ray) {
-            blocked[i] = embreeOccluded(_scene, ray, queue.mask) ? 1u : 0u;
+        forRays(queue, [&](uint32_t first, uint32_t count, const gpu::Ray* rays) {
+            embreeOccluded(_scene, queue.mask, rays, count, blocked + first);
         });
     }
 
@@ -43,15 +43,14 @@ public:
     void recordOccluded(VkCommandBuffer, VkDeviceAddress, const TraceQueue&) override { recordingIsWrong(); }
 
 private:
-    template <class Function> static void forEachRay(const TraceQueue& queue, const Function& function) {
+    template <class Function> static void forRays(const TraceQueue& queue, const Function& function) {
         const auto& header =
             *reinterpret_cast<const gpu::QueueHeader*>(queue.header->mapped<char>() + queue.headerOffset);
         const auto* rays = queue.rays->mapped<gpu::Ray>();
         tbb::parallel_for(tbb::blocked_range<uint32_t>(0, header.count, RAYS_PER_TASK),
                           [&](const auto& range) {
                               const FlushDenormals flush;
-                              for (uint32_t i = range.begin(); i < range.end(); ++i)
-                                  function(i, rays[i]);
+                              function(range.begin(), range.end() - range.begin(), rays + range.begin());
                           });
     }
 

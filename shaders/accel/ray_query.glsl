@@ -12,12 +12,14 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Bvh
 
 const float QUERY_WINDOW = 8.0 * BOX_ALLOWANCE; // the driver's distances differ from canonical ones by rounding
 const float QUERY_FAR = 3e38;                   // drivers want finite intervals
-const uint QUERY_SIDES = 8u;                    // rays around one that passes beside an edge
+const float QUERY_RADIUS = 4.0;                 // of rays beside one, in allowances
+const float QUERY_SLOPE = 32.0;                 // surfaces up to this steep stay in the window of rays beside
+const uint QUERY_SIDES = 8u;                    // rays around one that hits an edge
 const uint QUERY_LIMIT = 256u;                  // proposals turned down before a ray counts as a miss
 
 struct Candidates {
     Hit best;
-    bool beside;      // `best` lies beside an edge
+    bool edge;        // `best` lies on an edge
     float turnedDown; // distance of a proposal the canonical test did not confirm, else QUERY_FAR
 };
 
@@ -39,7 +41,7 @@ void consider(inout Candidates c, SceneRecord scene, Ray ray, uint instance, uin
         c.turnedDown = min(c.turnedDown, proposed);
     } else if (t > ray.tMin && before(t, instance, primitive, c.best.t, c.best.instance, c.best.primitive)) {
         c.best = Hit(instance, primitive, t, u, v);
-        c.beside = besideEdge(direction, rayAllowance(origin, record.extent), a, b, d, u, v);
+        c.edge = onEdge(u, v);
     }
 }
 
@@ -70,7 +72,7 @@ Hit traceRayQuery(SceneRecord scene, Ray ray, uint mask, const bool any) {
         vec3 origin = ray.origin;
         if (side > 0u) {
             float angle = float(side - 1u) * (6.2831853 / float(QUERY_SIDES));
-            origin += (EDGE_RADIUS * allowance) * (cos(angle) * across0 + sin(angle) * across1);
+            origin += (QUERY_RADIUS * allowance) * (cos(angle) * across0 + sin(angle) * across1);
         }
         rayQueryEXT query;
         uint flags = searching && !any ? gl_RayFlagsOpaqueEXT : gl_RayFlagsNoOpaqueEXT;
@@ -88,14 +90,14 @@ Hit traceRayQuery(SceneRecord scene, Ray ray, uint mask, const bool any) {
                         ? QUERY_FAR
                         : rayQueryGetIntersectionTEXT(query, true);
             if (t >= QUERY_FAR) return c.best;
-            float window = max(t * QUERY_WINDOW, EDGE_RADIUS * allowance);
+            float window = max(t * QUERY_WINDOW, QUERY_SLOPE * QUERY_RADIUS * allowance);
             from = max(t - window, 0.0);
             to = t + window;
             searching = false;
             side = any ? 1u : 0u;
         } else {
             bool found = c.best.instance != NO_INDEX;
-            if (found && !c.beside) return c.best;
+            if (found && !c.edge) return c.best;
             if (side < QUERY_SIDES) {
                 ++side;
             } else {

@@ -25,14 +25,11 @@
 HIPR_SHARED_BEGIN
 #ifdef __cplusplus
 using std::abs;
-using glm::cross;
-using glm::dot;
 using glm::max;
 using glm::min;
 #endif
 
 HIPR_CONST float BOX_ALLOWANCE = 9.5367431640625e-7f; // 2^-20: 16 rounding errors of the largest coordinate involved
-HIPR_CONST float EDGE_RADIUS = 4.0f;                  // "beside an edge", in allowances
 HIPR_CONST float AXIS_RATIO = 1e-9f;                  // direction components below this share of the largest are lifted to it
 
 // A ray prepared for slab tests: plane p is met at p * inverse + bias.
@@ -172,16 +169,9 @@ HIPR_INLINE bool canonicalHit(TriangleRay r, BoxRay box, vec3 a, vec3 b, vec3 c,
     return boxEntry <= boxExit;
 }
 
-// Whether a hit at u, v lies so close to an edge of its triangle that another triangle may own the same point. For
-// traversals that take their candidates from elsewhere and must then look around; errs on the side of yes.
-HIPR_INLINE bool besideEdge(vec3 direction, float allowance, vec3 a, vec3 b, vec3 c, float u, float v) {
-    vec3 ab = b - a, bc = c - b, ca = a - c;
-    float longest = max(dot(ab, ab), max(dot(bc, bc), dot(ca, ca)));
-    float weight = min(u, min(v, 1.0f - u - v));
-    float distance = weight * dot(cross(ab, ca), direction); // times the longest edge and |direction|
-    float radius = EDGE_RADIUS * allowance;
-    return distance * distance <= radius * radius * longest * dot(direction, direction);
-}
+// Whether a hit lies on an edge of its triangle, where the neighbour has it too. (Beside an edge it is the triangle's
+// alone, because neighbours see edge functions of opposite sign.)
+HIPR_INLINE bool onEdge(float u, float v) { return min(min(u, v), 1.0f - u - v) <= 2.4e-7f; }
 
 // Whether a hit comes before another: nearer, or as near with smaller ids.
 HIPR_INLINE bool before(float t, uint instance, uint primitive, float t1, uint instance1, uint primitive1) {
