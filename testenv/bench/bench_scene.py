@@ -14,8 +14,19 @@ MATERIALS = {
 }
 
 
+def normal_at(point, s, t, step=1e-4):
+    """The unit normal of a surface point(s, t), by differences."""
+    def along(ds, dt):
+        a, b = point(s - ds, t - dt), point(s + ds, t + dt)
+        return [q - p for p, q in zip(a, b)]
+    (ax, ay, az), (bx, by, bz) = along(step, 0), along(0, step)
+    n = (ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx)
+    length = math.hypot(*n)
+    return tuple(c / length for c in n)
+
+
 def grid(cells, point):
-    """A grid of cells x cells quads over point(s, t), s and t in 0..1: points, counts, indices, st."""
+    """A grid of cells x cells quads over point(s, t), s and t in 0..1: points, normals, counts, indices, st."""
     row = cells + 1
     parameters = [(i / cells, j / cells) for i in range(row) for j in range(row)]
     indices = []
@@ -23,7 +34,9 @@ def grid(cells, point):
         for j in range(cells):
             a = i * row + j
             indices += [a, a + row, a + row + 1, a + 1]
-    return [point(s, t) for s, t in parameters], [4] * (cells * cells), indices, parameters
+    # Normals a little inside: a sphere's poles have none.
+    normals = [normal_at(point, min(max(s, 1e-3), 1 - 1e-3), t) for s, t in parameters]
+    return [point(s, t) for s, t in parameters], normals, [4] * (cells * cells), indices, parameters
 
 
 def ball(cells, centre, radius):
@@ -61,12 +74,13 @@ def write_checker(path, size=512, squares=16):
 
 
 def mesh_text(name, shape, material):
-    points, counts, indices, st = shape
+    points, normals, counts, indices, st = shape
     return f"""    def Mesh "{name}" (prepend apiSchemas = ["MaterialBindingAPI"])
     {{
         uniform token subdivisionScheme = "none"
         bool doubleSided = 1
         point3f[] points = [{", ".join("(%.6g, %.6g, %.6g)" % p for p in points)}]
+        normal3f[] normals = [{", ".join("(%.6g, %.6g, %.6g)" % n for n in normals)}] (interpolation = "vertex")
         int[] faceVertexCounts = {counts}
         int[] faceVertexIndices = {indices}
         texCoord2f[] primvars:st = [{", ".join("(%.6g, %.6g)" % p for p in st)}] (interpolation = "vertex")
@@ -146,21 +160,21 @@ def Xform "World"
 {looks_text()}    }}
 {"".join(meshes)}    def DiskLight "Light"
     {{
-        float inputs:intensity = 40
+        float inputs:intensity = 15
         float inputs:radius = 1
-        float intensity = 40
+        float intensity = 15
         float radius = 1
         double3 xformOp:translate = (0, 0, 3.9)
         uniform token[] xformOpOrder = ["xformOp:translate"]
     }}
     def Camera "Camera"
     {{
-        float focalLength = 20
+        float focalLength = 15
         float horizontalAperture = 24
         float verticalAperture = 13.5
         float2 clippingRange = (0.01, 100)
         double3 xformOp:translate = (0, -3.9, 0)
-        float3 xformOp:rotateXYZ = (82, 0, 0)
+        float3 xformOp:rotateXYZ = (76, 0, 0)
         uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
     }}
 }}

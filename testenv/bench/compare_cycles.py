@@ -3,7 +3,8 @@
 
 Cycles comes from PyPI (bpy) into a virtual environment of its own, once: about 400 MB. Both renderers take turns. Only
 samples are timed: from each renderer's time for N samples its time for a few is taken off, so that start-up, scene import
-and acceleration structures do not count on either side.
+and acceleration structures do not count on either side. Samples per second of processor time are told as well: they hold on a
+machine that is busy with other work, too.
 """
 
 import argparse
@@ -18,6 +19,7 @@ from pathlib import Path
 from bench_scene import write_scene
 
 BPY = "bpy==5.0.1"  # needs Python 3.11, Debian 12's
+KINDS = {"msamplesPerSecond": "Msamples/s", "msamplesPerCpuSecond": "Msamples/s of one processor"}
 HERE = Path(__file__).resolve().parent
 
 
@@ -27,31 +29,42 @@ def bpy_python(folder):
     if not (folder / "complete").exists():
         print(f"Installing {BPY} into {folder}", file=sys.stderr)
         subprocess.run(["/usr/bin/python3", "-m", "venv", folder], check=True)
-        subprocess.run([python, "-m", "pip", "install", "-q", BPY], check=True)
+        subprocess.run([python, "-m", "pip", "install", "-q", BPY], check=True, env=plain_environment())
         (folder / "complete").touch()
     return python
+
+
+def plain_environment():
+    """Blender brings its own libraries, OpenUSD among them."""
+    ours = ("LD_LIBRARY_PATH", "PYTHONPATH", "PXR_PLUGINPATH_NAME")
+    return {name: value for name, value in os.environ.items() if name not in ours}
 
 
 class Cycles:
     name = "Cycles"
 
-    def __init__(self, python, scene, size, depth):
+    def __init__(self, python, scene, size, depth, log):
         command = [python, HERE / "cycles_worker.py", scene, *map(str, size), str(depth)]
-        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        self.log = log
+        with open(log, "w") as stderr:
+            self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=stderr,
+                                            text=True, env=plain_environment())
 
     def _ask(self, line):
-        self.process.stdin.write(line + "\n")
-        self.process.stdin.flush()
+        if self.process.poll() is None:
+            self.process.stdin.write(line + "\n")
+            self.process.stdin.flush()
         for answer in self.process.stdout:
             if answer.startswith("RESULT "):
                 return [float(word) for word in answer.split()[1:]]
-        raise SystemExit("Cycles ended without a result")
+        raise SystemExit("Cycles ended without a result:\n" + self.log.read_text()[-2000:])
 
-    def seconds(self, samples, seed):
-        return self._ask(f"{samples} {seed}")[0]
+    def time(self, samples, seed):
+        """Seconds on the clock, and of all processors together."""
+        return self._ask(f"{samples} {seed}")
 
     def mean(self, samples, folder):
-        return self._ask(f"{samples} 1 {folder / 'cycles.exr'}")[1]
+        return self._ask(f"{samples} 1 {folder / 'cycles.exr'}")[2]
 
     def close(self):
         self.process.stdin.close()
@@ -72,8 +85,11 @@ class Hipr:
                             "-o", picture], check=True)
             return json.loads(stats.read_text())["frames"][0]
 
-    def seconds(self, samples, seed):
-        return self._render(samples, seed, None)["seconds"]
+    def time(self, samples, seed):
+        before = os.times()
+        clock = self._render(samples, seed, None)["seconds"]
+        after = os.times()
+        return clock, sum(after[2:4]) - sum(before[2:4])  # of children that have ended
 
     def picture(self, samples, path):
         self._render(samples, 1, path)
@@ -87,7 +103,8 @@ def mean_of_picture(python, path):
     code = ("import sys, bpy; i = bpy.data.images.load(sys.argv[1]); i.colorspace_settings.name = 'Non-Color'; "
             "p = i.pixels[:]; n = len(p) // 4; "
             "print('RESULT', sum(.2126 * p[4*k] + .7152 * p[4*k+1] + .0722 * p[4*k+2] for k in range(n)) / n)")
-    output = subprocess.run([python, "-c", code, path], check=True, capture_output=True, text=True).stdout
+    output = subprocess.run([python, "-c", code, path], check=True, capture_output=True, text=True,
+                            env=plain_environment()).stdout
     return float(next(line for line in output.splitlines() if line.startswith("RESULT ")).split()[1])
 
 
@@ -103,23 +120,26 @@ def measure(options, folder):
     scene = options.scene or write_scene(folder)
     size = tuple(map(int, options.size.split("x")))
     python = bpy_python(options.environment)
-    renderers = [Hipr(options.record, scene, size, options.depth), Cycles(python, scene, size, options.depth)]
-    rates, ratios = {r.name: [] for r in renderers}, []
+    renderers = [Hipr(options.record, scene, size, options.depth),
+                 Cycles(python, scene, size, options.depth, folder / "cycles.log")]
+    msamples = size[0] * size[1] * options.samples / 1e6
+    rates = {kind: {r.name: [] for r in renderers} for kind in KINDS}
     for r in renderers:  # compile, import, build
-        r.seconds(1, 0)
-    few, many = options.samples // 8 or 1, options.samples + (options.samples // 8 or 1)
+        r.time(1, 0)
+    few = options.samples // 8 or 1
     for repetition in range(options.repetitions):
         for r in renderers:
-            time = r.seconds(many, repetition + 1) - r.seconds(few, repetition + 1)
-            rates[r.name].append(size[0] * size[1] * options.samples / time / 1e6)
-        ratios.append(rates["HiPR"][-1] / rates["Cycles"][-1])
+            times = zip(r.time(options.samples + few, repetition + 1), r.time(few, repetition + 1))
+            for kind, (long, short) in zip(KINDS, times):
+                rates[kind][r.name].append(msamples / (long - short))
     hipr, cycles = renderers
     hipr.picture(options.samples, folder / "hipr.exr")
     means = {"HiPR": mean_of_picture(python, folder / "hipr.exr"), "Cycles": cycles.mean(options.samples, folder)}
     for r in renderers:
         r.close()
     return {"scene": Path(scene).name, "size": options.size, "samples": options.samples, "depth": options.depth,
-            "msamplesPerSecond": {name: spread(values) for name, values in rates.items()}, "ratio": spread(ratios),
+            "rates": {kind: {name: spread(values) for name, values in rates[kind].items()} for kind in KINDS},
+            "ratios": {kind: spread([a / b for a, b in zip(*rates[kind].values())]) for kind in KINDS},
             "meanLuminance": means}
 
 
@@ -138,13 +158,13 @@ def main():
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         result = measure(options, Path(folder))
-    rates = result["msamplesPerSecond"]
     print(f"{result['scene']}, {result['size']}, {result['samples']} samples, depth {result['depth']}; "
           f"load {os.getloadavg()[0]:.2f}")
-    print("| | Msamples/s | mean luminance |\n|---|---|---|")
-    for name, rate in rates.items():
-        print(f"| {name} | {text(rate)} | {result['meanLuminance'][name]:.4f} |")
-    print(f"\nHiPR / Cycles: {text(result['ratio'])}")
+    print("| | HiPR | Cycles | HiPR / Cycles |\n|---|---|---|---|")
+    for kind, label in KINDS.items():
+        row = [*result["rates"][kind].values(), result["ratios"][kind]]
+        print(f"| {label} | {' | '.join(map(text, row))} |")
+    print(f"| mean luminance | {' | '.join(f'{mean:.4f}' for mean in result['meanLuminance'].values())} | |")
     if options.json:
         Path(options.json).write_text(json.dumps(result, indent=2) + "\n")
 

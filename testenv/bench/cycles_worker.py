@@ -1,7 +1,7 @@
 """Renders a USD scene with Cycles; runs in the Python environment that has bpy. driven by compare_cycles.py.
 
 Arguments: SCENE WIDTH HEIGHT DEPTH. Then one line a job on standard input, "SAMPLES SEED" or "SAMPLES SEED PICTURE.exr";
-the answer is one line on standard output: "RESULT <seconds>", with a picture "RESULT <seconds> <mean luminance>".
+the answer is one line on standard output: "RESULT <seconds> <processor seconds>", and with a picture its mean luminance.
 """
 
 import sys
@@ -18,7 +18,7 @@ def load(scene_path, width, height, depth):
     render, cycles = scene.render, scene.cycles
     render.engine = "CYCLES"
     render.resolution_x, render.resolution_y, render.resolution_percentage = width, height, 100
-    render.use_persistent_data = True  # scene and BVH stay, so that a second picture is samples only
+    render.use_persistent_data = False  # with it a second picture keeps the first one's number of samples
     render.image_settings.file_format = "OPEN_EXR"
     render.image_settings.color_depth = "32"
     cycles.device = "CPU"
@@ -51,9 +51,9 @@ def main():
         scene.cycles.samples, scene.cycles.seed = int(samples), int(seed)
         if picture:
             scene.render.filepath = picture[0].strip()
-        start = time.perf_counter()
+        start, start_cpu = time.perf_counter(), time.process_time()
         bpy.ops.render.render(write_still=bool(picture))
-        answer = f"RESULT {time.perf_counter() - start}"
+        answer = f"RESULT {time.perf_counter() - start} {time.process_time() - start_cpu}"
         if picture:
             answer += f" {mean_luminance(scene.render.filepath)}"
         print(answer, flush=True)
