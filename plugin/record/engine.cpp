@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cstring>
+#include <unistd.h>
 
 #include "plugin/record/failure.h"
 #include "plugin/record/recordTask.h"
 #include "pxr/base/gf/half.h"
+#include "pxr/base/tf/stringUtils.h"
 #include "pxr/imaging/hd/camera.h"
 #include "pxr/imaging/hd/engine.h"
 #include "pxr/imaging/hd/pluginRenderDelegateUniqueHandle.h"
@@ -78,6 +80,22 @@ void copyPixel(const uint8_t* source, HdFormat component, size_t count, uint32_t
 void storeMatrix(const GfMatrix4d& matrix, float* out) {
     for (int i = 0; i < 16; ++i)
         out[i] = float(matrix.GetArray()[i]);
+}
+
+/// A picture that cannot fit would have the system end the whole process, or others, instead of an error.
+/// Each buffer is held by the renderer, twice by Hydra, and once for the file.
+void requireMemory(const HdRenderDelegate& delegate, const EngineOptions& options) {
+    double pixelBytes = 0;
+    for (const std::string& aov : options.aovs)
+        pixelBytes += double(HdDataSizeOfFormat(delegate.GetDefaultAovDescriptor(TfToken(aov)).format));
+    const double needed = 4.0 * pixelBytes * options.width * options.height;
+    const double installed = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
+    if (needed > installed)
+        throw Failure(ExitRender,
+                      TfStringPrintf("a picture of %d x %d pixels with these AOVs needs %.0f GiB of memory; "
+                                     "this machine has %.0f GiB",
+                                     options.width, options.height, needed / (1 << 30),
+                                     installed / (1 << 30)));
 }
 
 } // namespace
@@ -173,6 +191,7 @@ bool Engine::hasAov(const std::string& aov) const {
 }
 
 void Engine::populate(const UsdStageRefPtr& stage, const SdfPath& camera, const EngineOptions& options) {
+    requireMemory(*_impl->delegate, options);
     _impl->width = options.width;
     _impl->height = options.height;
     _impl->index.reset(HdRenderIndex::New(_impl->delegate.Get(), {}));
@@ -195,7 +214,7 @@ void Engine::populate(const UsdStageRefPtr& stage, const SdfPath& camera, const 
         bindings.push_back(binding);
     }
     _impl->task =
-        std::make_shared<RecordTask>(_impl->index.get(), camera, GfVec4d(0, 0, options.width, options.height),
+        std::make_shared<RecordTask>(_impl->index.get(), camera, GfVec2i(options.width, options.height),
                                      bindings, renderTags(options.purposes));
 }
 

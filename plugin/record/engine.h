@@ -25,9 +25,9 @@ struct EngineOptions {
 /// Owns the render delegate, render index, scene delegate and AOV buffers. Use from one thread.
 class Engine {
 public:
-    /// Creates the renderer called `renderer` (plugin id or display name), on a device when one is named: HiPR
-    /// takes it as the setting "hipr:device". Throws Failure with ExitRender, which lists the renderers that
-    /// exist.
+    /// Creates the renderer called `renderer` (plugin id or display name), on a device when one is named:
+    /// HiPR takes it as the setting "hipr:device". Throws Failure with ExitRender, which lists the renderers
+    /// that exist.
     Engine(const std::string& renderer, const std::string& device);
     ~Engine();
     Engine(const Engine&) = delete;

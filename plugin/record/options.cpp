@@ -110,7 +110,7 @@ void addSceneOptions(CLI::App& app, Options& options, RawOptions& raw) {
         ->group("Scene");
     app.add_option("--purposes", raw.purposes,
                    "Purposes to show besides default: render, proxy, guide; an empty list shows default "
-                   "alone [proxy]")
+                   "alone [render]")
         ->type_name("LIST")
         ->group("Scene");
     app.add_option("--mask", raw.masks, "Open only these prims, with their ancestors and descendants")

@@ -19,7 +19,7 @@ struct Options {
     int width = 0, height = 0;  ///< 0: from the camera
     std::vector<double> frames; ///< empty: the stage's first
     std::vector<std::string> aovs{"color"};
-    std::vector<std::string> purposes{"default", "proxy"}; ///< always holds "default"
+    std::vector<std::string> purposes{"default", "render"}; ///< always holds "default"
     std::vector<std::string> mask;
     int refineLevel = 0;
 

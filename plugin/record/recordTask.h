@@ -3,7 +3,7 @@
 #pragma once
 
 #include "pxr/base/gf/matrix4d.h"
-#include "pxr/base/gf/vec4d.h"
+#include "pxr/base/gf/vec2i.h"
 #include "pxr/imaging/hd/aov.h"
 #include "pxr/imaging/hd/renderPass.h"
 #include "pxr/imaging/hd/renderPassState.h"
@@ -13,8 +13,8 @@ namespace hipr::record {
 
 class RecordTask final : public PXR_NS::HdTask {
 public:
-    /// `viewport` is x, y, width, height in pixels.
-    RecordTask(PXR_NS::HdRenderIndex* index, const PXR_NS::SdfPath& camera, const PXR_NS::GfVec4d& viewport,
+    /// `size` is the width and height of all AOV buffers in pixels.
+    RecordTask(PXR_NS::HdRenderIndex* index, const PXR_NS::SdfPath& camera, const PXR_NS::GfVec2i& size,
                const PXR_NS::HdRenderPassAovBindingVector& bindings, const PXR_NS::TfTokenVector& renderTags);
 
     void Sync(PXR_NS::HdSceneDelegate*, PXR_NS::HdTaskContext*, PXR_NS::HdDirtyBits* dirtyBits) override;
@@ -29,7 +29,7 @@ public:
 
 private:
     PXR_NS::SdfPath _camera;
-    PXR_NS::GfVec4d _viewport;
+    PXR_NS::GfVec2i _size;
     PXR_NS::TfTokenVector _renderTags;
     PXR_NS::HdRenderPassSharedPtr _pass;
     PXR_NS::HdRenderPassStateSharedPtr _state;

@@ -77,10 +77,14 @@ std::string reportJson(const RecordingReport& report) {
 }
 
 std::string memoryTable(const VtDictionary& stats) {
+    const std::string group = "memory:"; // HiPR's "hipr:memory:<kind>"
     std::vector<std::pair<double, std::string>> rows;
-    for (const auto& [key, value] : stats)
-        if (TfStringToLower(key).find("memory") != std::string::npos)
-            rows.emplace_back(statNumber(stats, key, 0.0), key.substr(key.find_last_of(':') + 1));
+    for (const auto& [key, value] : stats) {
+        if (TfStringToLower(key).find("memory") == std::string::npos) continue;
+        const size_t kind = key.find(group);
+        rows.emplace_back(statNumber(stats, key, 0.0),
+                          kind == std::string::npos ? key : key.substr(kind + group.size()));
+    }
     if (rows.empty()) return "The renderer reports no memory.\n";
     std::sort(rows.rbegin(), rows.rend());
     std::string text;

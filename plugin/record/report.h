@@ -32,8 +32,8 @@ struct RecordingReport {
 
 std::string reportJson(const RecordingReport& report);
 
-/// A line "kind  amount" for each statistic that has "memory" in its name, largest first; one line that says so
-/// when the renderer reports none.
+/// A line "kind  amount" for each statistic that has "memory" in its name, largest first; one line that says
+/// so when the renderer reports none.
 std::string memoryTable(const PXR_NS::VtDictionary& stats);
 
 } // namespace hipr::record

@@ -112,6 +112,13 @@ TEST_F(RecorderErrors, UnknownDeviceIsFive) {
     EXPECT_THAT(files(), IsEmpty());
 }
 
+TEST_F(RecorderErrors, PictureLargerThanTheMachineIsFive) {
+    const Outcome outcome =
+        run(command({scene(), "-o", file("a.exr"), "--size", "65536x65536", "--aovs", "color,normal"}));
+    EXPECT_EQ(outcome.code, 5);
+    EXPECT_THAT(outcome.text, HasSubstr("GiB"));
+}
+
 TEST_F(RecorderErrors, InterruptedWritesWhatIsThereAndReturns130) {
     Process process(command({scene(), "-o", file("a.exr"), "--size", "64x64", "--samples", "1000000"}));
     ASSERT_TRUE(process.waitFor(" samples"));

@@ -32,7 +32,7 @@ TEST(Options, Defaults) {
     EXPECT_EQ(options.scene, "a.usda");
     EXPECT_THAT(options.outputs, ElementsAre("a.png"));
     EXPECT_THAT(options.aovs, ElementsAre("color"));
-    EXPECT_THAT(options.purposes, ElementsAre("default", "proxy"));
+    EXPECT_THAT(options.purposes, ElementsAre("default", "render"));
     EXPECT_EQ(options.renderer, "HiPR");
     EXPECT_EQ(options.refineLevel, 0);
 }
@@ -62,9 +62,9 @@ TEST(Options, Complexity) {
 
 TEST(Options, ListsAndSettings) {
     const Options options = parse({"a.usda", "-o", "a.exr", "--aovs", "color,depth, depth", "--purposes",
-                                   "render", "--set", "a:b=1", "--set", "name=x=y", "--mask", "/A,/B"});
+                                   "guide", "--set", "a:b=1", "--set", "name=x=y", "--mask", "/A,/B"});
     EXPECT_THAT(options.aovs, ElementsAre("color", "depth"));
-    EXPECT_THAT(options.purposes, ElementsAre("default", "render"));
+    EXPECT_THAT(options.purposes, ElementsAre("default", "guide"));
     EXPECT_THAT(options.settings, ElementsAre(Pair("a:b", "1"), Pair("name", "x=y")));
     EXPECT_THAT(options.mask, ElementsAre("/A", "/B"));
 }

@@ -22,13 +22,13 @@ TEST(Report, NumbersOfAnyType) {
 }
 
 TEST(Report, MemoryIsSortedBySize) {
-    const VtDictionary stats{{"hipr:memory:textures", VtValue(uint64_t(3) << 20)},
+    const VtDictionary stats{{"hipr:memory:Host: textures", VtValue(uint64_t(3) << 20)},
                              {"hipr:memory:geometry", VtValue(uint64_t(5) << 30)},
                              {"peakMemory", VtValue(uint64_t(100))},
                              {"percentDone", VtValue(1.0)}};
     const std::string table = memoryTable(stats);
-    EXPECT_LT(table.find("geometry"), table.find("textures"));
-    EXPECT_LT(table.find("textures"), table.find("peakMemory"));
+    EXPECT_LT(table.find("geometry"), table.find("Host: textures"));
+    EXPECT_LT(table.find("Host: textures"), table.find("peakMemory"));
     EXPECT_THAT(table, HasSubstr("5.0 GiB"));
     EXPECT_THAT(table, HasSubstr("3.0 MiB"));
     EXPECT_EQ(table.find("percentDone"), std::string::npos);
