@@ -50,14 +50,14 @@ void run(std::vector<Job>& jobs, Device& device, const AssetReader& assets, cons
     }
 }
 
-/// Whether a UDIM set may have tiles beyond those looked for: its last row has one, or it has ten rows still
-/// to try.
+/// Whether a UDIM set may have tiles beyond those looked for: sets have gaps, so a hundred absent numbers end
+/// it.
 bool wantsMoreTiles(const TextureSource& source) {
+    constexpr size_t Gap = 100;
     const size_t count = source.tiles.size();
     if (!source.udim() || count >= MostTiles) return false;
-    if (count < TilesPerRow * TilesPerRow) return true;
-    return std::any_of(source.tiles.end() - TilesPerRow, source.tiles.end(),
-                       [](const TextureTile& tile) { return tile.loaded(); });
+    return count < Gap || std::any_of(source.tiles.end() - Gap, source.tiles.end(),
+                                      [](const TextureTile& tile) { return tile.loaded(); });
 }
 
 void dropAbsentTail(TextureSource& source) {
