@@ -96,7 +96,8 @@ void setLobes(inout Surface s, MaterialInputs inputs, uint flags) {
     float metallic = clamp(inputs.metallic, 0.0, 1.0);
     vec3 color = clamp(inputs.diffuseColor, 0.0, 1.0);
     float ior = usableIor(inputs.ior);
-    float normalIncidence = (1.0 - ior) / (1.0 + ior);
+    float index = clamp(inputs.ior, 0.0, 100.0); // 0, a way to ask for a full mirror, included
+    float normalIncidence = (1.0 - index) / (1.0 + index);
     bool specularWorkflow = (flags & MATERIAL_SPECULAR_WORKFLOW) != 0u;
     bool refractive = (flags & MATERIAL_REFRACTIVE) != 0u;
     s.f0 = specularWorkflow ? clamp(inputs.specularColor, 0.0, 1.0)
