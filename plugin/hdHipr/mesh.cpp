@@ -107,12 +107,13 @@ HdHiprMesh::Rebuild HdHiprMesh::syncTopology(HdSceneDelegate* delegate, HdDirtyB
         }
         _desc.doubleSided = doubleSided;
     }
-    if (bits & styleBits) {
+    if ((bits & styleBits) || reprToken != _reprToken) {
         const MeshStyle style = meshStyle(_GetReprDesc(reprToken)[0], GetDisplayStyle(delegate));
         if (!(style == _style)) {
             rebuild = Rebuild::All;
         }
         _style = style;
+        _reprToken = reprToken;
     }
     return rebuild;
 }

@@ -48,6 +48,7 @@ private:
     hipr::ObjectId _object;
     hipr::MeshDesc
         _desc; ///< kept: an edit of one part needs the others, and Hydra drops what it has handed over
+    TfToken _reprToken; ///< the repr that `_style` is for
     hdhipr::MeshStyle _style;
     SdfPathVector _subsetMaterials;
     std::shared_ptr<const hipr::TriangleMesh> _mesh;

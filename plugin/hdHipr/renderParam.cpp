@@ -58,6 +58,18 @@ void HdHiprRenderParam::removeObject(hipr::ObjectId id) {
     _edit.removeObject(id);
 }
 
+void HdHiprRenderParam::updateRenderTags(HdRenderIndex const& index) {
+    std::lock_guard<std::mutex> lock(_mutex);
+    for (auto& [id, state] : _objects) {
+        const TfToken tag = index.GetRenderTag(state.path);
+        if (tag == state.renderTag) {
+            continue;
+        }
+        state.renderTag = tag;
+        emitObject(id, state);
+    }
+}
+
 void HdHiprRenderParam::setLight(hipr::LightId id, hipr::LightDesc const& desc) {
     std::lock_guard<std::mutex> lock(_mutex);
     if (desc.kind == hipr::LightKind::Dome && desc.visible) {

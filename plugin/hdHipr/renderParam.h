@@ -46,6 +46,9 @@ public:
     void setObject(hipr::ObjectId id, hdhipr::ObjectState const& state);
     void removeObject(hipr::ObjectId id);
 
+    /// Asks the render index for the tag of every object.
+    void updateRenderTags(HdRenderIndex const& index);
+
     /// Lights go through here so that it is known whether a dome fills the background.
     void setLight(hipr::LightId id, hipr::LightDesc const& desc);
     void removeLight(hipr::LightId id);

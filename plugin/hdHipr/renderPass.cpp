@@ -22,7 +22,8 @@ void HdHiprRenderPass::_MarkCollectionDirty() {
         return;
     }
     _repr = GetRprimCollection().GetReprSelector();
-    GetRenderIndex()->GetChangeTracker().MarkAllRprimsDirty(HdChangeTracker::DirtyRepr);
+    // (Hydra clears DirtyRepr before it syncs.)
+    GetRenderIndex()->GetChangeTracker().MarkAllRprimsDirty(HdChangeTracker::DirtyDisplayStyle);
 }
 
 bool HdHiprRenderPass::IsConverged() const {
@@ -76,6 +77,12 @@ void HdHiprRenderPass::_Execute(HdRenderPassStateSharedPtr const& state, TfToken
     frame.targets = std::move(targets);
     frame.skyVisible =
         _param.hasDome() && settingOn("domeLightCameraVisibility") && settingOn("enableSceneLights");
+    // Hydra does not sync prims whose tag takes them out of the picture, so they are asked here.
+    const unsigned int tagVersion = GetRenderIndex()->GetChangeTracker().GetRenderTagVersion();
+    if (_renderTagVersion != tagVersion) {
+        _renderTagVersion = tagVersion;
+        _param.updateRenderTags(*GetRenderIndex());
+    }
     _param.setFilter(GetRprimCollection(), renderTags);
     _param.commitEdits();
     _param.loop()->submitFrame(frame);

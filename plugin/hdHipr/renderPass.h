@@ -29,6 +29,7 @@ private:
 
     HdHiprRenderParam& _param;
     HdReprSelector _repr;
+    unsigned int _renderTagVersion = 0;
     bool _nothingBound = false; ///< the last execution had no buffer to render into
 };
 

@@ -83,6 +83,42 @@ TEST_F(Edits, renderTagsFilterIt) {
     EXPECT_EQ(idAt(0, 0), -1);
 }
 
+TEST_F(Edits, renderTagOfThePrimTakesItOutAndBack) {
+    ASSERT_TRUE(host.render());
+    host.scene().prim(square).renderTag = HdRenderTagTokens->guide;
+    mark(HdChangeTracker::DirtyRenderTag);
+    ASSERT_TRUE(host.render());
+    EXPECT_EQ(idAt(0, 0), -1);
+    host.scene().prim(square).renderTag = HdRenderTagTokens->geometry;
+    mark(HdChangeTracker::DirtyRenderTag);
+    ASSERT_TRUE(host.render());
+    EXPECT_GE(idAt(0, 0), 0);
+}
+
+TEST_F(Edits, reprSwitchesBetweenHullAndRefined) {
+    auto& prim = host.scene().prim(square);
+    prim.topology = HdMeshTopology(TfToken("catmullClark"), TfToken("rightHanded"), VtIntArray{4},
+                                   VtIntArray{0, 1, 2, 3});
+    prim.tags.SetVertexInterpolationRule(TfToken("edgeOnly")); // the limit surface loses its corners
+    prim.refineLevel = 3;
+    const auto use = [this](TfToken const& repr) {
+        host.setCollection(HdRprimCollection(HdTokens->geometry, HdReprSelector(repr)));
+        return host.render();
+    };
+    const double corner = 0.45 / 3;
+    for (int round = 0; round < 2; ++round) { // a repr that is not new any more must sync again
+        ASSERT_TRUE(use(HdReprTokens->refined));
+        EXPECT_EQ(idAt(corner, corner), -1);
+        EXPECT_GE(idAt(0, 0), 0);
+        ASSERT_TRUE(use(HdReprTokens->smoothHull));
+        EXPECT_GE(idAt(corner, corner), 0);
+    }
+    prim.refineLevel = 0;
+    mark(HdChangeTracker::DirtyDisplayStyle);
+    ASSERT_TRUE(use(HdReprTokens->refined));
+    EXPECT_GE(idAt(corner, corner), 0);
+}
+
 TEST_F(Edits, collectionExcludesIt) {
     HdRprimCollection without(HdTokens->geometry, HdReprSelector(HdReprTokens->refined));
     without.SetExcludePaths({square});

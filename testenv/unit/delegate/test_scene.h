@@ -28,6 +28,7 @@ public:
         std::map<TfToken, VtValue> params;     ///< of a light
         std::map<SdfPath, VtIntArray> indices; ///< of an instancer, by prototype
         VtValue resource;                      ///< of a material
+        PxOsdSubdivTags tags;
         int refineLevel = 0;
     };
 
@@ -48,6 +49,7 @@ public:
     void remove(SdfPath const& id);
 
     HdMeshTopology GetMeshTopology(SdfPath const& id) override { return prim(id).topology; }
+    PxOsdSubdivTags GetSubdivTags(SdfPath const& id) override { return prim(id).tags; }
     GfMatrix4d GetTransform(SdfPath const& id) override { return prim(id).transform; }
     bool GetVisible(SdfPath const& id) override { return prim(id).visible; }
     bool GetDoubleSided(SdfPath const& id) override { return prim(id).doubleSided; }
