@@ -7,6 +7,8 @@ namespace {
 
 /// Rounds recorded before the host looks whether any path is left, when the traversal runs on the device.
 constexpr uint32_t RoundsPerLook = 8;
+/// The same for the steps of shadow rays through transparent surfaces.
+constexpr uint32_t StepsPerLook = 16;
 
 constexpr uint32_t bit(uint32_t queue) {
     return 1u << queue;
@@ -76,7 +78,7 @@ void PathTracer::resolveShadows(Steps& steps, uint32_t turn) {
     for (uint32_t i = 0; i < gpu::SHADOW_PASS_LIMIT; ++i) {
         const uint32_t queue = gpu::QUEUE_TRANSMIT + i % 2, other = gpu::QUEUE_TRANSMIT + (i + 1) % 2;
         prepare(steps, bit(queue), bit(other));
-        if (steps.onHost()) {
+        if (steps.onHost() || i % StepsPerLook == StepsPerLook - 1) {
             steps.flush();
             if (queueCount(queue) == 0) break;
         }

@@ -4,6 +4,16 @@
 #extension GL_GOOGLE_include_directive : require
 #include "trace/wavefront.glsl"
 
+// W. Kahan, "Further remarks on reducing truncation errors", Comm. ACM 8(1), 1965: a million equal samples have their
+// value as mean, where a plain float sum is off by percents.
+void addTo(inout vec3 sum, inout vec3 error, vec3 value) {
+    precise vec3 corrected = value - error;
+    precise vec3 next = sum + corrected;
+    precise vec3 lost = (next - sum) - corrected;
+    error = lost;
+    sum = next;
+}
+
 void main() {
     const TraceRecord trace = TraceRecordRef(push.record).v;
     const TileWork tile = TileRef(trace.tiles).v[gl_WorkGroupID.y];
@@ -12,16 +22,19 @@ void main() {
     const uint pixel = tile.x + local % tile.width + (tile.y + local / tile.width) * trace.width;
 
     // The first sample replaces what an earlier picture left in the pixel.
-    FilmPixel sum = FilmPixel(vec4(0.0), vec3(0.0), 0u);
+    FilmPixel sum = FilmPixel(vec4(0.0), vec3(0.0), 0u, vec3(0.0), vec3(0.0));
     if (tile.firstSample != 0u) sum = FilmRef(trace.film).v[pixel];
+    vec3 color = sum.color.rgb;
     for (uint i = 0u; i < tile.sampleCount; ++i) {
         const PathState path = PathRef(trace.paths).v[tile.firstSlot + local * tile.sampleCount + i];
         vec3 indirect = path.indirect;
         const float largest = max(indirect.r, max(indirect.g, indirect.b));
         if (trace.fireflyClamp > 0.0 && largest > trace.fireflyClamp) indirect *= trace.fireflyClamp / largest;
-        sum.color += vec4(path.radiance + indirect, path.alpha);
-        sum.albedo += path.albedo;
+        addTo(color, sum.colorError, path.radiance + indirect);
+        addTo(sum.albedo, sum.albedoError, path.albedo);
+        sum.color.a += path.alpha; // whole numbers
     }
+    sum.color.rgb = color;
     sum.count = tile.firstSample + tile.sampleCount;
     FilmRef(trace.film).v[pixel] = sum;
 }

@@ -62,11 +62,13 @@ struct ShadowWork {
 };
 HIPR_CONST uint SHADOW_INDIRECT = 0x80000000u;
 
-// Sums over the samples of one pixel.
+// Sums over the samples of one pixel, and what rounding has kept out of them so far (compensated summation).
 struct FilmPixel {
     vec4 color;
     vec3 albedo;
     uint count;
+    vec3 colorError;
+    vec3 albedoError;
 };
 
 // One AOV that is resolved from the first hit; one value a pixel.
@@ -92,9 +94,9 @@ HIPR_CONST uint QUEUE_SHADOW = 2u;   // 2
 HIPR_CONST uint QUEUE_TRANSMIT = 4u; // 2
 HIPR_CONST uint QUEUE_COUNT = 6u;
 
-// Surfaces one path may pass straight through, and those one shadow ray may; longer ones end (are blocked).
+// Surfaces one path may pass straight through, and those one shadow ray may; longer paths end, longer rays are blocked.
 HIPR_CONST uint PATH_PASS_LIMIT = 256u;
-HIPR_CONST uint SHADOW_PASS_LIMIT = 32u;
+HIPR_CONST uint SHADOW_PASS_LIMIT = 256u;
 
 struct TraceCounters {
     uint64_t nearestRays;

@@ -17,6 +17,17 @@ LightDesc dome(float intensity = 1.f) {
     return light;
 }
 
+/// Straight along -z; a surface that faces it shows its own colour.
+LightDesc sun() {
+    LightDesc light;
+    light.name = "/sun";
+    light.kind = LightKind::Distant;
+    light.normalize = true;
+    light.angle = 0.f;
+    light.intensity = glm::pi<float>();
+    return light;
+}
+
 } // namespace
 
 TEST(Picture, QuadAndSphereUnderARectLight) {
@@ -144,16 +155,42 @@ TEST(Picture, PresenceLetsLightAndSightThrough) {
                   m[3].z = 1.f;
                   return m;
               }()});
-    LightDesc sun;
-    sun.kind = LightKind::Distant;
-    sun.normalize = true;
-    sun.angle = 0.f;
-    sun.intensity = glm::pi<float>();
-    stage.add(sun);
+    stage.add(sun());
     stage.edit.setCamera(lookAt({0, 0, 4}, {0, 0, 0}));
     stage.film(16, 16);
     stage.render();
     EXPECT_NEAR(mean(stage.color()).y, 0.5f * 0.75f * 0.75f, 0.01f); // sunlight and view cross the black veil
+}
+
+TEST(Picture, ManyVeils) {
+    Settings settings;
+    settings.samples = 8;
+    Stage stage(settings, {16, 1 << 16});
+    stage.add(quadMesh(), matte(glm::vec3(0.5f)), {scaling(20, 20, 1)});
+    MaterialDesc veil = matte(glm::vec3(0.f));
+    veil.opacity = constantValue(0.01f);
+    veil.opacityMode = OpacityMode::Presence;
+    std::vector<glm::mat4x3> layers(100, scaling(200, 200, 1));
+    for (size_t i = 0; i < layers.size(); ++i)
+        layers[i][3].z = 0.02f * float(i + 1);
+    stage.add(quadMesh(), veil, layers);
+    stage.add(sun());
+    stage.edit.setCamera(lookAt({0, 0, 4}, {0, 0, 0}));
+    stage.film(64, 64);
+    stage.render();
+    const float expected = 0.5f * float(std::pow(0.99, 200.0));
+    EXPECT_NEAR(mean(stage.color()).y, expected, 0.03f * expected);
+}
+
+TEST(Picture, ManySamplesSumExactly) {
+    Settings settings;
+    settings.samples = 300000;
+    Stage stage(settings);
+    stage.add(dome(0.1f));
+    stage.edit.setCamera(lookAt({0, 0, 4}, {0, 0, 0}));
+    stage.film(2, 2);
+    stage.render();
+    EXPECT_NEAR(stage.color().at(1, 1).x, 0.1f, 1e-7f);
 }
 
 TEST(Picture, CameraLightWhenThereIsNone) {
