@@ -56,7 +56,15 @@ void readWrapModes(const OIIO::ImageSpec& spec, ImageFile& file) {
     file.wrapT = comma == std::string::npos ? file.wrapS : wrapMode(modes.substr(comma + 1));
 }
 
-bool readPixels(OIIO::ImageInput& input, ImageFile& file, std::string& error) {
+/// Whether a file of `stored` bytes can hold `decoded` bytes of pixels. A damaged header may ask for any
+/// size, and memory that is only promised ends the process when it is touched; no lossless format packs
+/// better than about 1000 : 1.
+bool plausibleSize(size_t stored, size_t decoded) {
+    constexpr size_t Harmless = size_t(256) << 20, BestRatio = 4000;
+    return decoded <= Harmless || decoded / BestRatio <= stored;
+}
+
+bool readPixels(OIIO::ImageInput& input, size_t stored, ImageFile& file, std::string& error) {
     constexpr int LargestSide = 65536;
     const OIIO::ImageSpec& spec = input.spec();
     if (spec.width <= 0 || spec.height <= 0 || spec.width > LargestSide || spec.height > LargestSide ||
@@ -70,7 +78,13 @@ bool readPixels(OIIO::ImageInput& input, ImageFile& file, std::string& error) {
     file.eightBit = spec.format == OIIO::TypeDesc::UINT8;
     readWrapModes(spec, file);
     const OIIO::TypeDesc type = file.eightBit ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT;
-    file.pixels.resize(size_t(file.width) * file.height * size_t(file.channels) * type.size());
+    const size_t decoded = size_t(file.width) * file.height * size_t(file.channels) * type.size();
+    if (!plausibleSize(stored, decoded)) {
+        error = "damaged: too short for its " + std::to_string(file.width) + " x " +
+                std::to_string(file.height) + " pixels";
+        return false;
+    }
+    file.pixels.resize(decoded);
     if (input.read_image(0, 0, 0, file.channels, type, file.pixels.data())) return true;
     error = input.geterror();
     return false;
@@ -94,13 +108,13 @@ bool readImageFile(const std::vector<unsigned char>& bytes, const std::string& p
     takeError();
     if (reader && reader->supports("ioproxy")) {
         if (const auto input = OIIO::ImageInput::open("image" + extension, &config, &memory))
-            return readPixels(*input, file, error);
+            return readPixels(*input, bytes.size(), file, error);
         error = takeError();
         return false;
     }
     const TemporaryFile temporary(bytes, extension);
     if (const auto input = OIIO::ImageInput::open(temporary.path(), &config))
-        return readPixels(*input, file, error);
+        return readPixels(*input, bytes.size(), file, error);
     error = takeError();
     return false;
 }

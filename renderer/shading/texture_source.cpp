@@ -1,6 +1,7 @@
 #include "renderer/shading/texture_source.h"
 
 #include <algorithm>
+#include <new>
 
 #include <tbb/parallel_for.h>
 
@@ -21,18 +22,26 @@ struct Job {
 
 void decode(Job& job, const AssetReader& assets, const ColorManager& color) {
     const std::string path = job.source->tilePath(job.tile);
-    const std::vector<unsigned char> bytes = assets(path);
-    if (bytes.empty()) {
-        if (!job.source->udim()) job.error = "cannot be read";
-        return;
+    try {
+        const std::vector<unsigned char> bytes = assets(path);
+        if (!bytes.empty())
+            job.decoded = decodeImage(bytes, path, job.source->colorSpace, color, job.image, job.error);
+        else if (!job.source->udim())
+            job.error = "cannot be read";
+    } catch (const std::exception& e) { // the host's reader
+        job.error = e.what();
     }
-    job.decoded = decodeImage(bytes, path, job.source->colorSpace, color, job.image, job.error);
 }
 
 void upload(Job& job, Device& device) {
     TextureTile& tile = job.source->tiles[job.tile];
+    try {
+        tile.buffer = device.createFrom(job.image.texels.data(), job.image.texels.size(), "textures");
+    } catch (const std::bad_alloc&) {
+        job.error = "does not fit into the device's memory";
+        return;
+    }
     tile.image = std::move(job.image);
-    tile.buffer = device.createFrom(tile.image.texels.data(), tile.image.texels.size(), "textures");
     if (!job.source->keepPixels) tile.image.texels = {};
 }
 

@@ -96,8 +96,10 @@ TEST(Image, BrokenFilesGiveAReason) {
     Bytes cut = encode8("png", 64, 64, 3, std::vector<uint8_t>(64 * 64 * 3, 200));
     cut.resize(cut.size() / 2);
     const Bytes noise(1000, 0x5a);
-    const Files files = {{"cut.png", cut}, {"noise.png", noise}, {"noise.exr", noise}, {"noise.xyz", noise},
-                         {"noise", noise}, {"noise.jpg", noise}, {"noise.hdr", noise}, {"noise.tif", noise}};
+    Bytes huge = encodePpm(60000, 60000, {1, 2, 3}); // a header that asks for 10 GB
+    const Files files = {{"huge.ppm", huge},   {"cut.png", cut},     {"noise.png", noise},
+                         {"noise.exr", noise}, {"noise.xyz", noise}, {"noise", noise},
+                         {"noise.jpg", noise}, {"noise.hdr", noise}, {"noise.tif", noise}};
     for (const auto& [path, bytes] : files) {
         Image image;
         std::string error;

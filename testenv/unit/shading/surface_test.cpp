@@ -296,6 +296,20 @@ TEST(Materials, BadValuesAreClampedAndToldOnce) {
     messageLog().entries.clear();
 }
 
+TEST(Texture, AReaderThatThrowsIsToldOnce) {
+    messageLog().entries.clear();
+    TextureStore textures(
+        testDevice(),
+        [](const std::string&) -> std::vector<unsigned char> { throw std::runtime_error("no network"); },
+        ColorManager::create({}));
+    const uint32_t texture =
+        textures.acquire({"a.png", "auto", WrapMode::Clamp, WrapMode::Clamp, true}, "/m");
+    EXPECT_TRUE(textures.commit());
+    EXPECT_EQ(messageLog().count("/m", "a.png: no network"), 1);
+    EXPECT_EQ(textures.image(texture), nullptr);
+    messageLog().entries.clear();
+}
+
 TEST(Materials, TexturesAreSharedAndFreed) {
     int reads = 0;
     const Bytes picture = encode8("png", 256, 256, 3, std::vector<uint8_t>(256 * 256 * 3, 90));
