@@ -13,6 +13,15 @@ set(_usd_imaging_libs usdImaging usdVolImaging usdSkelImaging usdSkel usdVol usd
     usd pcp kind)
 
 set(_usd_hints ${pxr_ROOT} $ENV{pxr_ROOT} ${OpenUSD_ROOT} ${pxr_DIR})
+# Another prefix in the same build tree: what was found below the old one is of no use.
+if(DEFINED OpenUSD_SEARCHED AND NOT "${OpenUSD_SEARCHED}" STREQUAL "${_usd_hints}")
+    get_cmake_property(_usd_cached CACHE_VARIABLES)
+    list(FILTER _usd_cached INCLUDE REGEX "^OpenUSD_.*_(DIR|LIBRARY)$")
+    foreach(_variable ${_usd_cached})
+        unset(${_variable} CACHE)
+    endforeach()
+endif()
+set(OpenUSD_SEARCHED "${_usd_hints}" CACHE INTERNAL "Prefixes of the last search for OpenUSD")
 find_path(OpenUSD_INCLUDE_DIR pxr/pxr.h HINTS ${_usd_hints} PATH_SUFFIXES include
           DOC "Folder that holds pxr/pxr.h of OpenUSD")
 mark_as_advanced(OpenUSD_INCLUDE_DIR)
