@@ -1,12 +1,13 @@
-// Area lights: rectangle, sphere, disk and cylinder under any affine map. Points are drawn and rays are met in the light's
-// own space, where shapes are regular; densities per solid angle are carried to world space exactly:
+// Area lights: rectangle, sphere, disk and cylinder under any affine map. Spheres and rectangles are sampled uniformly in
+// the solid angle they fill in the light's own space, disks and cylinders (the facing part) uniformly in area. Points are
+// drawn and rays are met in that space, where shapes are regular; densities are carried to world space exactly:
 //   directions: w = M l / |M l| has d(w) = |det M| / |M l|^3 d(l) for a unit direction l,
 //   areas:      an element with local normal n grows by |det M| |M^-T n|.
 // Shapes emit from their outer side only: rectangle and disk towards local -Z, sphere and cylinder outwards, the
 // cylinder (along X) not from its caps (UsdLux).
 #ifndef HIPR_LIGHT_SHAPES_GLSL
 #define HIPR_LIGHT_SHAPES_GLSL
-#include "material/frame.glsl"
+#include "light/rect.glsl"
 #include "shared/references.glsl"
 
 // Where a ray meets a light, or where a light was sampled.
@@ -35,11 +36,17 @@ float planarArea(LightRecord light) {
 // The part of a cylinder's side that faces a point at distance `rho` from the axis: half of its angle.
 float cylinderHalfAngle(float radius, float rho) { return acos(clamp(radius / rho, 0.0, 1.0)); }
 
-// Density of the cone in which a sphere is seen from a local point at squared distance `squared` from its centre.
+// Density of a uniform choice in the local solid angle `angle`, for the local image of a unit world direction, which has
+// length `inverseStretch`.
+float anglePdf(LightRecord light, float angle, float inverseStretch) {
+    return 1.0 / (angle * volumeScale(light) * inverseStretch * inverseStretch * inverseStretch);
+}
+
+// The same for the cone in which a sphere is seen from a local point at squared distance `squared` from its centre.
 float spherePdf(LightRecord light, float squared, float inverseStretch) {
     float sin2 = light.size.x * light.size.x / squared;
     float oneMinusCos = sin2 / (1.0 + sqrt(max(0.0, 1.0 - sin2)));
-    return 1.0 / (2.0 * PI * oneMinusCos * volumeScale(light) * inverseStretch * inverseStretch * inverseStretch);
+    return anglePdf(light, 2.0 * PI * oneMinusCos, inverseStretch);
 }
 
 bool meetPlanar(LightRecord light, vec3 o, vec3 d, out LightPoint hit) {
@@ -48,9 +55,11 @@ bool meetPlanar(LightRecord light, vec3 o, vec3 d, out LightPoint hit) {
     vec2 p = o.xy + hit.t * d.xy;
     bool inside = light.kind == LIGHT_RECT ? abs(p.x) <= 0.5 * light.size.x && abs(p.y) <= 0.5 * light.size.y
                                            : dot(p, p) <= light.size.x * light.size.x;
-    hit.pdf = areaPdf(light, planarArea(light), hit.t, d.z);
+    if (!inside) return false;
+    float angle = light.kind == LIGHT_RECT ? sphericalRect(light.size, o).angle : 0.0;
+    hit.pdf = angle > MIN_RECT_ANGLE ? anglePdf(light, angle, length(d)) : areaPdf(light, planarArea(light), hit.t, d.z);
     hit.st = rectCoordinates(light, p);
-    return inside;
+    return true;
 }
 
 bool meetSphere(LightRecord light, vec3 o, vec3 d, out LightPoint hit) {
@@ -108,12 +117,16 @@ bool sampleSphere(LightRecord light, vec3 o, vec2 u, out vec3 wi, out LightPoint
     return true;
 }
 
-// A point of a flat shape or of the facing part of a cylinder, seen from local `o`; local position, normal and area.
-bool sampleArea(LightRecord light, vec3 o, vec2 u, out vec3 p, out vec3 n, out float localArea) {
+// A point of a flat shape or of the facing part of a cylinder, seen from local `o`: local position and normal; uniform in
+// the solid angle `angle` where that is not 0, else in the area `localArea`.
+bool samplePoint(LightRecord light, vec3 o, vec2 u, out vec3 p, out vec3 n, out float localArea, out float angle) {
     n = vec3(0.0, 0.0, -1.0);
     localArea = planarArea(light);
+    angle = 0.0;
     if (light.kind == LIGHT_RECT) {
-        p = vec3((u - 0.5) * light.size, 0.0);
+        SphericalRect rect = sphericalRect(light.size, o);
+        angle = rect.angle > MIN_RECT_ANGLE ? rect.angle : 0.0;
+        p = vec3(angle > 0.0 ? o.xy + sampleSphericalRect(rect, u) : (u - 0.5) * light.size, 0.0);
         return o.z < 0.0;
     }
     float radius = light.size.x;
@@ -136,14 +149,14 @@ bool sampleShape(LightRecord light, vec3 origin, vec2 u, out vec3 wi, out LightP
     vec3 o = light.worldToLight * vec4(origin, 1.0);
     if (light.kind == LIGHT_SPHERE) return sampleSphere(light, o, u, wi, point);
     vec3 p, n;
-    float localArea;
-    if (!sampleArea(light, o, u, p, n, localArea)) return false;
+    float localArea, angle;
+    if (!samplePoint(light, o, u, p, n, localArea, angle)) return false;
     vec3 way = mat3(light.lightToWorld) * (p - o);
     point.t = length(way);
     wi = way / point.t;
     point.st = rectCoordinates(light, p.xy);
     float facing = -dot(n, p - o) / point.t; // local direction is (p - o) / t
-    point.pdf = areaPdf(light, localArea, point.t, facing);
+    point.pdf = angle > 0.0 ? anglePdf(light, angle, length(p - o) / point.t) : areaPdf(light, localArea, point.t, facing);
     return facing > 0.0 && point.t > 0.0;
 }
 #endif

@@ -139,6 +139,22 @@ TEST(LightIrradiance, Rect) {
     }
 }
 
+/// Close to a rectangle its solid angle matters, far from it single precision does.
+TEST(LightIrradiance, RectNearAndFar) {
+    for (const double height : {1e-3, 0.03, 30.0, 3000.0}) {
+        const LightDesc rect = light(LightKind::Rect, at(0.2, 0.1, height));
+        std::vector<glm::dvec3> corners;
+        for (const glm::dvec2 c :
+             {glm::dvec2(-0.3, -0.4), glm::dvec2(0.7, -0.4), glm::dvec2(0.7, 0.6), glm::dvec2(-0.3, 0.6)})
+            corners.push_back(glm::dvec3(c, height));
+        const double truth =
+            height < 1000.0 ? 2.0 * lambertPolygon(corners, glm::dvec3(Up)) : 2.0 / (height * height);
+        const Irradiance e = irradiance(LitScene({rect}), Origin, Up);
+        EXPECT_NEAR(e.byLight.y, truth, 0.01 * truth) << height;
+        EXPECT_NEAR(e.combined.y, truth, 0.01 * truth) << height;
+    }
+}
+
 TEST(LightIrradiance, RectShinesToOneSide) {
     const LightDesc away =
         light(LightKind::Rect, at(0, 0, 1) * glm::rotate(glm::dmat4(1.0), Pi, glm::dvec3(1, 0, 0)));
