@@ -1,5 +1,6 @@
 /// Every edit a scene can make must show in the picture, and an edit that changes nothing must not.
-#include <gmock/gmock.h>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "testenv/unit/delegate/test_host.h"
@@ -147,6 +148,57 @@ TEST_F(Edits, materialBindingAndContentChangeItsColour) {
     host.scene().tracker().MarkSprimDirty(green, HdMaterial::DirtyResource);
     ASSERT_TRUE(host.render());
     EXPECT_GT(host.readColor(0, 0)[2], host.readColor(0, 0)[1] + 0.3f);
+}
+
+TEST_F(Edits, removedMaterialAndLightLeaveThePicture) {
+    host.scene().addMaterial(red, GfVec3f(0.8f, 0.f, 0.f));
+    host.scene().prim(square).material = red;
+    ASSERT_TRUE(host.render());
+    EXPECT_LT(host.readColor(0, 0)[1], 0.2f);
+    host.scene().remove(red);
+    ASSERT_TRUE(host.render());
+    EXPECT_GT(host.readColor(0, 0)[1], 0.3f); // the square's own grey
+    host.scene().remove(dome);
+    host.scene().addSphereLightFarAway(SdfPath("/lamp"));
+    ASSERT_TRUE(host.render());
+    EXPECT_LT(host.readColor(0, 0)[1], 0.01f);
+}
+
+TEST_F(Edits, subsetsHaveTheirOwnMaterials) {
+    host.scene().addMaterial(red, GfVec3f(0.8f, 0.f, 0.f));
+    host.scene().addMaterial(green, GfVec3f(0.f, 0.8f, 0.f));
+    auto& prim = host.scene().prim(square);
+    prim.material = red;
+    prim.topology = HdMeshTopology(TfToken("none"), TfToken("rightHanded"), VtIntArray{3, 3},
+                                   VtIntArray{0, 1, 2, 0, 2, 3});
+    HdGeomSubset subset;
+    subset.type = HdGeomSubset::TypeFaceSet;
+    subset.id = SdfPath("/square/subset");
+    subset.materialId = green;
+    subset.indices = VtIntArray{1};
+    prim.topology.SetGeomSubsets({subset});
+    ASSERT_TRUE(host.render());
+    const GfVec4f lower = host.readColor(0.1, -0.1), upper = host.readColor(-0.1, 0.1);
+    EXPECT_GT(lower[0], lower[1] + 0.3f);
+    EXPECT_GT(upper[1], upper[0] + 0.3f);
+    EXPECT_EQ(host.readInt("elementId", 0.1, -0.1), 0);
+    EXPECT_EQ(host.readInt("elementId", -0.1, 0.1), 1);
+}
+
+TEST_F(Edits, impossibleTransformsHideOnlyTheirPrim) {
+    const SdfPath other("/other");
+    host.scene().addSquare(other, GfVec3f(0.5f)).transform.SetTranslate(GfVec3d(1, 1, 0));
+    for (double bad : {std::nan(""), 0.0, 1e308}) {
+        host.scene().prim(square).transform = GfMatrix4d(bad);
+        mark(HdChangeTracker::DirtyTransform);
+        ASSERT_TRUE(host.render());
+        EXPECT_EQ(idAt(0.05, 0.05), -1) << bad;
+        EXPECT_GE(idAt(0.34, 0.34), 0) << bad;
+    }
+    host.scene().prim(square).transform = GfMatrix4d(1);
+    mark(HdChangeTracker::DirtyTransform);
+    ASSERT_TRUE(host.render());
+    EXPECT_GE(idAt(0, 0), 0);
 }
 
 TEST_F(Edits, displayColorPrimvarChangesItsColour) {

@@ -50,6 +50,14 @@ TestScene::Prim& TestScene::addDome(SdfPath const& id) {
     return prim;
 }
 
+TestScene::Prim& TestScene::addSphereLightFarAway(SdfPath const& id) {
+    Prim& prim = _prims[id];
+    prim.type = HdPrimTypeTokens->sphereLight;
+    prim.transform.SetTranslate(GfVec3d(0, 0, 1e5));
+    GetRenderIndex().InsertSprim(HdPrimTypeTokens->sphereLight, this, id);
+    return prim;
+}
+
 TestScene::Prim& TestScene::addMaterial(SdfPath const& id, GfVec3f const& color) {
     Prim& prim = _prims[id];
     prim.type = HdPrimTypeTokens->material;

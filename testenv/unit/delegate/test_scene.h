@@ -41,6 +41,8 @@ public:
                        SdfPath const& parent = SdfPath());
     /// Adds a dome light of radiance 1, in which a white diffuse surface shows 1.
     Prim& addDome(SdfPath const& id);
+    /// Adds a lamp whose light does not arrive: without any light the renderer would add its own.
+    Prim& addSphereLightFarAway(SdfPath const& id);
     /// Adds a UsdPreviewSurface of one diffuse colour without a specular lobe's help.
     Prim& addMaterial(SdfPath const& id, GfVec3f const& color);
 
