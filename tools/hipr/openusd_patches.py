@@ -21,6 +21,9 @@ class Patch:
     new: str
 
 
+_LIBRARY_NAME = ("a precompiled header shared by libraries is read before any of them has a name, so the name must come "
+                 "in where a registry function is defined; otherwise libraries that are loaded later register nothing")
+
 PATCHES = (
     Patch(
         "pxr/base/arch/demangle.cpp",
@@ -38,6 +41,50 @@ PATCHES = (
         "size_t is used without a header that declares it",
         "#include <atomic>\n#include <functional>\n",
         "#include <atomic>\n#include <cstddef>\n#include <functional>\n"),
+    Patch(
+        "pxr/base/tf/registryManager.h",
+        _LIBRARY_NAME,
+        """struct Tf_RegistryStaticInit {
+    Tf_RegistryStaticInit() {
+        Tf_RegistryInitCtor(TF_PP_STRINGIZE(MFB_ALT_PACKAGE_NAME));
+    }
+    ~Tf_RegistryStaticInit() {
+        Tf_RegistryInitDtor(TF_PP_STRINGIZE(MFB_ALT_PACKAGE_NAME));
+    }
+};
+""",
+        """template <const char* (*Library)()>
+struct Tf_RegistryStaticInit {
+    Tf_RegistryStaticInit() {
+        Tf_RegistryInitCtor(Library());
+    }
+    ~Tf_RegistryStaticInit() {
+        Tf_RegistryInitDtor(Library());
+    }
+};
+
+#define HIPR_REGISTRY_LIBRARY(NAME)                                            \\
+    static const char* NAME() { return TF_PP_STRINGIZE(MFB_ALT_PACKAGE_NAME); }\\
+    _ARCH_ENSURE_PER_LIB_INIT(Tf_RegistryStaticInit<NAME>, _tfRegistryInit)
+"""),
+    Patch(
+        "pxr/base/tf/registryManager.h",
+        _LIBRARY_NAME,
+        """    _ARCH_ENSURE_PER_LIB_INIT(Tf_RegistryStaticInit, _tfRegistryInit);         \\
+    static void _Tf_RegistryFunction(KEY_TYPE*, TAG*)
+""",
+        """    HIPR_REGISTRY_LIBRARY(BOOST_PP_CAT(_Tf_RegistryLibrary, __COUNTER__));      \\
+    static void _Tf_RegistryFunction(KEY_TYPE*, TAG*)
+"""),
+    Patch(
+        "pxr/base/tf/registryManager.h",
+        _LIBRARY_NAME,
+        """    _ARCH_ENSURE_PER_LIB_INIT(Tf_RegistryStaticInit, _tfRegistryInit);         \\
+    static void BOOST_PP_CAT(_Tf_RegistryFunction, NAME)(KEY_TYPE*, void*)
+""",
+        """    HIPR_REGISTRY_LIBRARY(BOOST_PP_CAT(_Tf_RegistryLibrary, __COUNTER__));      \\
+    static void BOOST_PP_CAT(_Tf_RegistryFunction, NAME)(KEY_TYPE*, void*)
+"""),
     Patch(
         "pxr/base/tf/pyTracing.cpp",
         "PyFrameObject is opaque in Python 3.11; PyFrame_GetCode returns a new reference",
