@@ -5,12 +5,17 @@
 PXR_NAMESPACE_OPEN_SCOPE
 
 void HdHiprCamera::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdDirtyBits* dirtyBits) {
+    const auto param = [&](const char* name) {
+        const VtValue value = VtValue::Cast<double>(delegate->GetCameraParamValue(GetId(), TfToken(name)));
+        return value.IsHolding<double>() ? value.UncheckedGet<double>() : 0.0;
+    };
     if (*dirtyBits & DirtyParams) {
-        const VtValue fStop =
-            VtValue::Cast<double>(delegate->GetCameraParamValue(GetId(), HdCameraTokens->fStop));
-        if (fStop.IsHolding<double>() && fStop.UncheckedGet<double>() > 0.0) {
+        if (param("fStop") > 0.0) {
             hdhipr::warnOnce(GetId().GetString(),
                              "depth of field (fStop) is not supported; the camera is a pinhole");
+        }
+        if (param("exposure") != 0.0) {
+            hdhipr::warnOnce(GetId().GetString(), "camera exposure is not supported and has no effect");
         }
     }
     HdCamera::Sync(delegate, renderParam, dirtyBits);
