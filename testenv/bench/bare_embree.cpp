@@ -35,11 +35,11 @@ BareEmbree::BareEmbree(const TriangleMesh& mesh)
     std::copy(mesh.positions.begin(), mesh.positions.end(), points);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
                                sizeof(glm::uvec3), mesh.triangles.size());
-    _buildSeconds = seconds([&] {
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(_scene, geometry);
-        rtcCommitScene(_scene);
-    });
+    _buildSeconds = timed([&] {
+                        rtcCommitGeometry(geometry);
+                        rtcAttachGeometry(_scene, geometry);
+                        rtcCommitScene(_scene);
+                    }).clock;
     rtcReleaseGeometry(geometry);
 }
 

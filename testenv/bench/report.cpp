@@ -1,62 +1,72 @@
 #include "testenv/bench/report.h"
 
-#include <cstdarg>
-#include <cstdio>
+#include <iomanip>
 #include <ostream>
+#include <sstream>
 
 namespace hipr::bench {
 
 namespace {
 
-std::string text(const char* format, ...) {
-    char line[256];
-    va_list arguments;
-    va_start(arguments, format);
-    std::vsnprintf(line, sizeof line, format, arguments);
-    va_end(arguments);
-    return line;
+constexpr double MiB = 1 << 20;
+
+std::string text(double value, int digits) {
+    std::ostringstream out;
+    out << std::fixed << std::setprecision(digits) << value;
+    return out.str();
 }
 
 std::string text(const Spread& s) {
-    return text("%.2f (%.2f-%.2f)", s.median, s.minimum, s.maximum);
+    return text(s.median, 2) + " (" + text(s.minimum, 2) + "-" + text(s.maximum, 2) + ")";
+}
+
+void printRow(std::ostream& out, std::initializer_list<std::string> cells) {
+    for (const std::string& cell : cells)
+        out << "| " << cell << " ";
+    out << "|\n";
+}
+
+void printHeader(std::ostream& out, std::initializer_list<std::string> cells) {
+    out << "\n";
+    printRow(out, cells);
+    for (size_t i = 0; i < cells.size(); ++i)
+        out << "|---";
+    out << "|\n";
 }
 
 void printTraversals(std::ostream& out, const TraversalReport& report) {
-    out << "\n| traversal | triangles | rays | Mray/s | bare Embree | ratio | other answers |\n"
-           "|---|---|---|---|---|---|---|\n";
+    printHeader(out, {"traversal", "triangles", "rays", "Mray/s", "bare Embree", "ratio",
+                      "ratio, processor time", "other answers"});
     for (const TraversalRow& r : report.rows)
-        out << text("| %s | %llu | %s | %s | %s | %s | %.4f %% |\n", r.traversal.c_str(),
-                    static_cast<unsigned long long>(r.triangles), r.rays.c_str(),
-                    text(r.mraysPerSecond).c_str(), text(r.bareMraysPerSecond).c_str(), text(r.ratio).c_str(),
-                    100 * r.disagreeing);
-    out << "\n| build | triangles | s | MiB |\n|---|---|---|---|\n";
+        printRow(out, {r.traversal, std::to_string(r.triangles), r.rays, text(r.mraysPerSecond),
+                       text(r.bareMraysPerSecond), text(r.ratio), text(r.processorRatio),
+                       text(100 * r.disagreeing, 4) + " %"});
+    printHeader(out, {"build", "triangles", "s", "MiB"});
     for (const BuildRow& b : report.builds)
-        out << text("| %s | %llu | %.3f | %s |\n", b.traversal.c_str(),
-                    static_cast<unsigned long long>(b.triangles), b.seconds,
-                    b.bytes ? text("%.1f", double(b.bytes) / (1 << 20)).c_str() : "");
+        printRow(out, {b.traversal, std::to_string(b.triangles), text(b.seconds, 3),
+                       b.bytes ? text(double(b.bytes) / MiB, 1) : ""});
 }
 
 void printFrames(std::ostream& out, const std::vector<FrameRow>& frames) {
-    out << "\n| picture by | triangles | Msamples/s | Mray/s | rays/sample | buffers MiB "
-           "|\n|---|---|---|---|---|---|\n";
+    printHeader(out, {"picture by", "triangles", "Msamples/s", "Mray/s", "rays/sample", "buffers MiB"});
     for (const FrameRow& f : frames)
-        out << text("| %s | %llu | %s | %s | %.1f | %.1f |\n", f.traversal.c_str(),
-                    static_cast<unsigned long long>(f.triangles), text(f.msamplesPerSecond).c_str(),
-                    text(f.mraysPerSecond).c_str(), f.raysPerSample, double(f.memory.total()) / (1 << 20));
+        printRow(out,
+                 {f.traversal, std::to_string(f.triangles), text(f.msamplesPerSecond), text(f.mraysPerSecond),
+                  text(f.raysPerSample, 1), text(double(f.memory.total()) / MiB, 1)});
 }
 
 } // namespace
 
 void printTables(std::ostream& out, const Report& report) {
-    out << text("%s, %s, %u threads, load before %.2f; median (least-most) of %d\n", report.device.c_str(),
-                report.driver.c_str(), report.threads, report.loadBefore, report.repetitions);
+    out << report.device << ", " << report.driver << ", " << report.threads << " threads, load before "
+        << text(report.loadBefore, 2) << "; median (least-most) of " << report.repetitions << "\n";
     for (const TraversalReport& t : report.traversals)
         printTraversals(out, t);
     if (!report.frames.empty()) printFrames(out, report.frames);
     if (report.start)
-        out << text("\nfirst pixel: cold %s s, warm %s s; peak memory %.0f MiB\n",
-                    text(report.start->coldSeconds).c_str(), text(report.start->warmSeconds).c_str(),
-                    report.start->peakMiB);
+        out << "\nfirst pixel: cold " << text(report.start->coldSeconds) << " s, warm "
+            << text(report.start->warmSeconds) << " s; peak memory " << text(report.start->peakMiB, 0)
+            << " MiB\n";
 }
 
 nlohmann::json toJson(const Report& report) {
@@ -70,6 +80,7 @@ nlohmann::json toJson(const Report& report) {
                                   {"mraysPerSecond", toJson(r.mraysPerSecond)},
                                   {"bareEmbreeMraysPerSecond", toJson(r.bareMraysPerSecond)},
                                   {"ratio", toJson(r.ratio)},
+                                  {"processorRatio", toJson(r.processorRatio)},
                                   {"disagreeing", r.disagreeing}});
         for (const BuildRow& b : t.builds)
             builds.push_back({{"traversal", b.traversal},

@@ -56,7 +56,7 @@ StartReport benchStart(const std::string& program, uint32_t triangles, int repet
 
 int firstPixel(uint32_t triangles) {
     constexpr uint32_t Width = 480, Height = 270;
-    const double time = seconds([&] {
+    const Timing time = timed([&] {
         std::string error;
         const auto renderer = Renderer::create({}, &error);
         if (!renderer) throw std::runtime_error(error);
@@ -72,7 +72,7 @@ int firstPixel(uint32_t triangles) {
     });
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    std::cout << time << " " << double(usage.ru_maxrss) / 1024 << "\n"; // kibibytes on Linux
+    std::cout << time.clock << " " << double(usage.ru_maxrss) / 1024 << "\n"; // kibibytes on Linux
     return 0;
 }
 

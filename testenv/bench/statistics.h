@@ -16,11 +16,18 @@ struct Spread {
 Spread spread(std::vector<double> values);
 nlohmann::json toJson(const Spread& spread);
 
-/// Wall-clock seconds `work` takes.
-template <class Work> double seconds(const Work& work) {
+/// Seconds on the clock, and of all threads of this process together. The latter hold on a busy machine, too.
+struct Timing {
+    double clock = 0, processor = 0;
+};
+double processorSeconds();
+
+template <class Work> Timing timed(const Work& work) {
     const auto start = std::chrono::steady_clock::now();
+    const double processor = processorSeconds();
     work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+            processorSeconds() - processor};
 }
 
 } // namespace hipr::bench

@@ -68,11 +68,11 @@ public:
         const uint64_t before = bytesHeld(device, *_traversal);
         build.traversal = name = nameOf(kind);
         build.triangles = mesh.view.triangleCount;
-        build.seconds = seconds([&] {
-            _traversal->setGeometry(0, &mesh.view);
-            _traversal->setInstances({mesh.instance});
-            _traversal->commit();
-        });
+        build.seconds = timed([&] {
+                            _traversal->setGeometry(0, &mesh.view);
+                            _traversal->setInstances({mesh.instance});
+                            _traversal->commit();
+                        }).clock;
         build.bytes = bytesHeld(device, *_traversal) - before;
         gpu::SceneRecord record{};
         record.geometries = mesh.geometries.address();
@@ -149,14 +149,14 @@ TraversalRow compare(Contender& contender, Yardstick& yardstick, int repetitions
     contender.setRays(yardstick.set);
     yardstick.trace(); // once each before the clock runs: pages, shaders, caches
     contender.trace();
-    std::vector<double> ours, theirs, ratios;
+    std::vector<double> ours, theirs, ratios, processorRatios;
     const double mrays = double(yardstick.set.rays.size()) / 1e6;
     for (int i = 0; i < repetitions; ++i) {
-        const double a = seconds([&] { yardstick.trace(); });
-        const double b = seconds([&] { contender.trace(); });
-        theirs.push_back(mrays / a);
-        ours.push_back(mrays / b);
-        ratios.push_back(a / b);
+        const Timing a = timed([&] { yardstick.trace(); }), b = timed([&] { contender.trace(); });
+        theirs.push_back(mrays / a.clock);
+        ours.push_back(mrays / b.clock);
+        ratios.push_back(a.clock / b.clock);
+        processorRatios.push_back(a.processor / b.processor);
     }
     return {contender.name, yardstick.set.kind, contender.build.triangles,        spread(ours),
             spread(theirs), spread(ratios),     yardstick.disagreement(contender)};

@@ -14,6 +14,7 @@ struct TraversalRow {
     uint64_t triangles = 0;
     Spread mraysPerSecond, bareMraysPerSecond;
     Spread ratio;           ///< ours / bare, each pair timed back to back
+    Spread processorRatio;  ///< the same, per second of processor time
     double disagreeing = 0; ///< share of rays whose answer differs from bare Embree's (edges; ties)
 };
 
