@@ -1,4 +1,6 @@
 /// Render buffers, convergence and the life of a delegate.
+#include <cstdlib>
+
 #include <gtest/gtest.h>
 
 #include "testenv/unit/delegate/test_host.h"
@@ -104,6 +106,19 @@ TEST(Delegate, diesWhileRendering) {
             host.tick();
         }
     }
+}
+
+TEST(Delegate, withoutADeviceShowsTheClearColour) {
+    setenv("HIPR_DEVICE", "no such device", 1);
+    TestHost host({"color", "primId"});
+    unsetenv("HIPR_DEVICE");
+    addScene(host);
+    host.setClearColor(GfVec4f(0.25f));
+    ASSERT_TRUE(host.render());
+    EXPECT_EQ(host.readColor(0, 0), GfVec4f(0.25f));
+    EXPECT_EQ(host.readInt("primId", 0, 0), -1);
+    EXPECT_FALSE(host.delegate().Pause());
+    EXPECT_TRUE(host.delegate().GetRenderStats().empty());
 }
 
 TEST(Delegate, twoAtOnceRenderTheirOwnScenes) {
