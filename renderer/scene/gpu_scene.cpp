@@ -143,18 +143,17 @@ void GpuScene::commit() {
     _device.upload(_record, &_hostRecord, sizeof(_hostRecord));
 }
 
-// Pictures must not be black for want of a light. The light table knows which lights emit anything.
+// Pictures must not be black for want of a light. Lights that are switched off are there on purpose, though.
 void GpuScene::commitLights() {
-    if (_cameraLight) _lights.remove(CameraLight);
-    _cameraLight = false;
+    if (_camera && (_lightDescs.empty() || !_options.lights)) {
+        _lights.set(CameraLight, cameraLight(*_camera));
+        if (!_cameraLightReported)
+            _device.messages()(Severity::Info, "", "no light in the scene; lighting it from the camera");
+        _cameraLightReported = true;
+    } else {
+        _lights.remove(CameraLight);
+    }
     _lights.commit(_hostRecord.boundsMin, _hostRecord.boundsMax);
-    if (_lights.count() > 0 || !_camera) return;
-    _cameraLight = true;
-    _lights.set(CameraLight, cameraLight(*_camera));
-    _lights.commit(_hostRecord.boundsMin, _hostRecord.boundsMax);
-    if (_cameraLightReported) return;
-    _cameraLightReported = true;
-    _device.messages()(Severity::Info, "", "no light in the scene; lighting it from the camera");
 }
 
 } // namespace hipr

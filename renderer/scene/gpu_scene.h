@@ -64,7 +64,7 @@ private:
     std::map<LightId, LightDesc> _lightDescs;
     std::optional<CameraDesc> _camera;
     SceneOptions _options;
-    bool _traversalChanged = true, _cameraLight = false, _cameraLightReported = false;
+    bool _traversalChanged = true, _cameraLightReported = false;
     gpu::SceneRecord _hostRecord{};
     Buffer _record;
 };
