@@ -2,7 +2,9 @@
 
 #include <atomic>
 #include <cstdio>
+#include <mutex>
 #include <unistd.h>
+#include <unordered_set>
 
 #include "pxr/base/tf/diagnosticMgr.h"
 #include "pxr/base/tf/error.h"
@@ -23,6 +25,14 @@ void printLine(const char* kind, const std::string& message) {
     std::fprintf(stderr, "%shiprrecord: %s: %s\n", clearLine, kind, message.c_str());
 }
 
+/// Composition repeats a message for every prim index that meets the same fault.
+bool saidBefore(const std::string& text) {
+    static std::mutex mutex;
+    static std::unordered_set<std::string> said;
+    const std::lock_guard<std::mutex> lock(mutex);
+    return !said.insert(text).second;
+}
+
 std::string trimmed(const std::string& text) {
     const size_t begin = text.find_first_not_of(" \n\t"), end = text.find_last_not_of(" \n\t");
     return begin == std::string::npos ? "" : text.substr(begin, end - begin + 1);
@@ -39,7 +49,10 @@ void printError(const std::string& message) {
 }
 
 struct Diagnostics::Route : TfDiagnosticMgr::Delegate {
-    void IssueError(const TfError& error) override { printError(trimmed(error.GetCommentary())); }
+    void IssueError(const TfError& error) override {
+        const std::string text = trimmed(error.GetCommentary());
+        if (!saidBefore(text)) printError(text);
+    }
     void IssueFatalError(const TfCallContext&, const std::string& message) override {
         printError(trimmed(message));
         _UnhandledAbort();
@@ -47,7 +60,10 @@ struct Diagnostics::Route : TfDiagnosticMgr::Delegate {
     void IssueStatus(const TfStatus& status) override {
         if (currentVerbosity == Verbosity::Verbose) printLine("status", trimmed(status.GetCommentary()));
     }
-    void IssueWarning(const TfWarning& warning) override { printWarning(trimmed(warning.GetCommentary())); }
+    void IssueWarning(const TfWarning& warning) override {
+        const std::string text = trimmed(warning.GetCommentary());
+        if (!saidBefore(text)) printWarning(text);
+    }
 };
 
 Diagnostics::Diagnostics(Verbosity verbosity) : _route(new Route) {

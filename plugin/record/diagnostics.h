@@ -17,8 +17,8 @@ void printWarning(const std::string& message);
 /// Prints "hiprrecord: error: ...".
 void printError(const std::string& message);
 
-/// Routes OpenUSD's diagnostics of all threads into lines of the same form while it lives. Only one may live
-/// at a time.
+/// Routes OpenUSD's diagnostics of all threads into lines of the same form while it lives; no text is said
+/// twice. Only one may live at a time.
 class Diagnostics {
 public:
     explicit Diagnostics(Verbosity verbosity);

@@ -77,6 +77,17 @@ TEST_F(RecorderErrors, StageThatIsDamagedIsTwo) {
     }
 }
 
+TEST_F(RecorderErrors, BrokenReferenceIsSaidOnceAndTheRestIsRecorded) {
+    write("scene.usda",
+          "#usda 1.0\n(subLayers = [@" + scene() + "@])\ndef \"Broken\" (references = @gone.usda@) {}\n");
+    const Outcome outcome = recordStage(file("scene.usda"), {"-o", file("a.exr"), "--camera", "auto"});
+    EXPECT_EQ(outcome.code, 0) << outcome.text;
+    const size_t first = outcome.text.find("gone.usda");
+    ASSERT_NE(first, std::string::npos);
+    EXPECT_EQ(outcome.text.find("warning: Could not open asset", outcome.text.find('\n', first)),
+              std::string::npos);
+}
+
 TEST_F(RecorderErrors, NoSuchCameraIsThreeAndCamerasAreListed) {
     const Outcome outcome = record({"-o", file("a.exr"), "--camera", "Frnot"});
     EXPECT_EQ(outcome.code, 3);

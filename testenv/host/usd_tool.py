@@ -35,7 +35,7 @@ def require(tool):
     return path
 
 
-def run(arguments, timeout=500):
+def run(arguments, timeout=850):
     """Runs a Python tool below a virtual display; returns its exit code and everything it printed."""
     prefix = os.environ["HIPR_USD_PREFIX"]
     environment = dict(os.environ)
