@@ -158,8 +158,16 @@ TraversalRow compare(Contender& contender, Yardstick& yardstick, int repetitions
         ratios.push_back(a.clock / b.clock);
         processorRatios.push_back(a.processor / b.processor);
     }
-    return {contender.name, yardstick.set.kind, contender.build.triangles,        spread(ours),
-            spread(theirs), spread(ratios),     yardstick.disagreement(contender)};
+    TraversalRow row;
+    row.traversal = contender.name;
+    row.rays = yardstick.set.kind;
+    row.triangles = contender.build.triangles;
+    row.mraysPerSecond = spread(ours);
+    row.bareMraysPerSecond = spread(theirs);
+    row.ratio = spread(ratios);
+    row.processorRatio = spread(processorRatios);
+    row.disagreeing = yardstick.disagreement(contender);
+    return row;
 }
 
 } // namespace
