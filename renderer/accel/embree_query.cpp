@@ -9,7 +9,8 @@
 namespace hipr {
 namespace {
 
-/// Embree's distances differ from canonical ones by rounding; its interval is kept this much longer.
+/// Embree's distances differ from canonical ones by rounding of the distance and of the origin: intervals are
+/// kept this much longer, and by an allowance.
 constexpr float LOOSENED = 1.0f + 8.0f * gpu::BOX_ALLOWANCE;
 /// Radius in which neighbours are looked for, in allowances.
 constexpr float NEIGHBOURHOOD = 4.0f;
@@ -27,8 +28,8 @@ struct Proposals {
     bool overflow = false;
     float nearest = std::numeric_limits<float>::infinity();
 
-    void add(const Proposal& p) {
-        if (p.t * LOOSENED < nearest) count = 0, overflow = false; // all others are behind
+    void add(const Proposal& p, float slack) {
+        if (p.t * LOOSENED + slack < nearest) count = 0, overflow = false; // all others are behind
         nearest = std::min(nearest, p.t);
         if (count < CAPACITY)
             all[count++] = p;
@@ -43,6 +44,7 @@ struct Query {
     const EmbreeScene* scene;
     gpu::Ray ray;
     uint32_t mask;
+    float slack; ///< see loosened()
     gpu::Hit best;
     bool onEdge = false; ///< of `best`
     float turnedDown =
@@ -61,7 +63,9 @@ struct Query {
     float entry, exit;
 
     Query(const EmbreeScene& s, const gpu::Ray& r, uint32_t m)
-        : scene(&s), ray(r), mask(m), best{gpu::NO_INDEX, gpu::NO_INDEX, r.tMax, 0.0f, 0.0f} {
+        : scene(&s), ray(r), mask(m),
+          slack(gpu::rayAllowance(r.origin, s.table().extent)), best{gpu::NO_INDEX, gpu::NO_INDEX, r.tMax,
+                                                                     0.0f, 0.0f} {
         rtcInitIntersectContext(&context);
     }
 
@@ -69,7 +73,10 @@ struct Query {
     void prepare();
     bool consider(uint32_t primitive, float proposed);
     bool found() const { return best.instance != gpu::NO_INDEX; }
-    bool doubtful() const { return onEdge || turnedDown <= best.t * LOOSENED || proposals.overflow; }
+    /// Start of Embree's interval; it does not take negative ones.
+    float start() const { return std::max(0.0f, ray.tMin - slack); }
+    float loosened(float t) const { return t * LOOSENED + slack; }
+    bool doubtful() const { return onEdge || turnedDown <= loosened(best.t) || proposals.overflow; }
 };
 
 /// Moves to an instance; false when the ray does not see it.
@@ -123,10 +130,10 @@ void filterIntersect(const RTCFilterFunctionNArguments* args) {
     RTCRay& ray = *reinterpret_cast<RTCRay*>(args->ray);
     const uint32_t primitive = reinterpret_cast<const RTCHit*>(args->hit)->primID;
     if (q.collecting) {
-        q.proposals.add({q.instance, primitive, ray.tfar});
-        ray.tfar = q.proposals.nearest * LOOSENED;
+        q.proposals.add({q.instance, primitive, ray.tfar}, q.slack);
+        ray.tfar = q.loosened(q.proposals.nearest);
     } else if (q.consider(primitive, ray.tfar)) {
-        ray.tfar = q.best.t * LOOSENED;
+        ray.tfar = q.loosened(q.best.t);
     } else {
         args->valid[0] = 0;
     }
@@ -137,7 +144,7 @@ void filterOccluded(const RTCFilterFunctionNArguments* args) {
     const float t = reinterpret_cast<const RTCRay*>(args->ray)->tfar;
     const uint32_t primitive = reinterpret_cast<const RTCHit*>(args->hit)->primID;
     if (q.collecting)
-        q.proposals.add({q.instance, primitive, t});
+        q.proposals.add({q.instance, primitive, t}, q.slack);
     else if (!q.consider(primitive, t))
         args->valid[0] = 0;
 }
@@ -146,7 +153,7 @@ void filterOccluded(const RTCFilterFunctionNArguments* args) {
 void intersectOne(Query& q, uint32_t instance, float& tFar) {
     if (!q.enter(instance)) return;
     RTCRayHit inner;
-    inner.ray = embreeRay(q.origin, q.direction, q.ray.tMin, tFar);
+    inner.ray = embreeRay(q.origin, q.direction, q.start(), tFar);
     inner.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(q.scene->geometryOf(instance).scene, &q.context, &inner);
     tFar = inner.ray.tfar;
@@ -154,7 +161,7 @@ void intersectOne(Query& q, uint32_t instance, float& tFar) {
 
 void occludedOne(Query& q, uint32_t instance, float& tFar) {
     if (!q.enter(instance)) return;
-    RTCRay inner = embreeRay(q.origin, q.direction, q.ray.tMin, tFar);
+    RTCRay inner = embreeRay(q.origin, q.direction, q.start(), tFar);
     rtcOccluded1(q.scene->geometryOf(instance).scene, &q.context, &inner);
     tFar = inner.tfar;
 }
@@ -174,7 +181,7 @@ void occludedInstance(const RTCOccludedFunctionNArguments* args) {
 /// Walks the whole scene; the top level only when there is something to choose from.
 void intersectAll(Query& q) {
     RTCRayHit outer;
-    outer.ray = embreeRay(q.ray.origin, q.ray.direction, q.ray.tMin, q.ray.tMax * LOOSENED);
+    outer.ray = embreeRay(q.ray.origin, q.ray.direction, q.start(), q.loosened(q.ray.tMax));
     outer.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     if (q.scene->table().records.size() == 1)
         intersectOne(q, 0, outer.ray.tfar);
@@ -183,7 +190,7 @@ void intersectAll(Query& q) {
 }
 
 void occludedAll(Query& q) {
-    RTCRay outer = embreeRay(q.ray.origin, q.ray.direction, q.ray.tMin, q.ray.tMax * LOOSENED);
+    RTCRay outer = embreeRay(q.ray.origin, q.ray.direction, q.start(), q.loosened(q.ray.tMax));
     if (q.scene->table().records.size() == 1)
         occludedOne(q, 0, outer.tfar);
     else
@@ -233,7 +240,7 @@ void considerAround(Query& q, float t) {
 void considerProposals(Query& q) {
     for (uint32_t i = 0; i < q.proposals.count; ++i) {
         const Proposal& p = q.proposals.all[i];
-        if (p.t <= q.proposals.nearest * LOOSENED && q.enter(p.instance)) q.consider(p.primitive, p.t);
+        if (p.t <= q.loosened(q.proposals.nearest) && q.enter(p.instance)) q.consider(p.primitive, p.t);
     }
     q.collecting = false;
 }
@@ -243,7 +250,7 @@ gpu::Hit decideNearest(Query& q) {
     considerProposals(q);
     if (q.found() && !q.doubtful()) return q.best;
     intersectAll(q);
-    if (q.turnedDown <= q.best.t * LOOSENED && std::isfinite(q.turnedDown)) considerAround(q, q.turnedDown);
+    if (q.turnedDown <= q.loosened(q.best.t) && std::isfinite(q.turnedDown)) considerAround(q, q.turnedDown);
     if (q.onEdge) considerAround(q, q.best.t);
     return q.best;
 }
@@ -285,7 +292,7 @@ void inBatches(const EmbreeScene& scene, uint32_t mask, const gpu::Ray* rays, ui
         batch.clear();
         for (uint32_t i = first; i < std::min(first + BATCH, count); ++i) {
             Query& q = batch.emplace_back(scene, rays[i], mask);
-            if (gpu::traceable(q.ray.origin, q.ray.direction, q.ray.tMin, q.ray.tMax)) walk(q);
+            if (gpu::traceable(q.ray.origin, q.ray.direction, q.start(), q.ray.tMax)) walk(q);
             prefetchTriangle(q);
             if (batch.size() > LEAD) prefetchCorners(batch[batch.size() - 1 - LEAD]);
         }

@@ -1,0 +1,140 @@
+#include "testenv/common/ray_scenes.h"
+
+#include <cmath>
+#include <limits>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace hipr::test {
+namespace {
+
+constexpr float PI = 3.14159265358979f;
+
+gpu::Ray rayFrom(const glm::vec3& origin, const glm::vec3& direction) {
+    return {origin, 0.0f, direction, std::numeric_limits<float>::infinity()};
+}
+
+glm::vec3 toWorld(const gpu::InstanceRecord& i, const glm::vec3& p) {
+    return i.objectToWorld * glm::vec4(p, 1.0f);
+}
+
+} // namespace
+
+glm::vec3 Random::direction() {
+    const float z = between(-1.0f, 1.0f), phi = between(0.0f, 2.0f * PI);
+    const float r = std::sqrt(std::max(0.0f, 1.0f - z * z));
+    return {r * std::cos(phi), r * std::sin(phi), z};
+}
+
+TriangleMesh soup(uint32_t count, float half, float size, uint32_t seed) {
+    Random random(seed);
+    TriangleMesh m;
+    for (uint32_t i = 0; i < count; ++i) {
+        const glm::vec3 centre = random.point(half);
+        for (int k = 0; k < 3; ++k)
+            m.positions.push_back(centre + random.point(size));
+        m.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    return m;
+}
+
+TriangleMesh bumpySphere(uint32_t rings, float radius) {
+    TriangleMesh m;
+    for (uint32_t i = 0; i <= rings; ++i)
+        for (uint32_t j = 0; j < rings; ++j) {
+            const float theta = PI * float(i) / float(rings), phi = 2.0f * PI * float(j) / float(rings);
+            const float bump =
+                i == 0 || i == rings ? 0.0f : 0.1f * std::sin(10.0f * theta) * std::sin(9.0f * phi);
+            const float s = i == rings ? 0.0f : std::sin(theta);
+            m.positions.push_back(radius * (1.0f + bump) *
+                                  glm::vec3(s * std::cos(phi), s * std::sin(phi), std::cos(theta)));
+        }
+    for (uint32_t i = 0; i < rings; ++i)
+        for (uint32_t j = 0; j < rings; ++j) {
+            const uint32_t a = i * rings + j, b = i * rings + (j + 1) % rings;
+            m.triangles.push_back({a, b, a + rings});
+            m.triangles.push_back({b, b + rings, a + rings});
+        }
+    return m;
+}
+
+TriangleMesh grid(uint32_t cells, float half, int axis) {
+    TriangleMesh m;
+    for (uint32_t i = 0; i <= cells; ++i)
+        for (uint32_t j = 0; j <= cells; ++j) {
+            glm::vec3 p(0.0f);
+            p[(axis + 1) % 3] = half * (2.0f * float(i) / float(cells) - 1.0f);
+            p[(axis + 2) % 3] = half * (2.0f * float(j) / float(cells) - 1.0f);
+            m.positions.push_back(p);
+        }
+    for (uint32_t i = 0; i < cells; ++i)
+        for (uint32_t j = 0; j < cells; ++j) {
+            const uint32_t a = i * (cells + 1) + j, b = a + cells + 1;
+            m.triangles.push_back({a, a + 1, b});
+            m.triangles.push_back({a + 1, b + 1, b});
+        }
+    return m;
+}
+
+gpu::InstanceRecord placed(uint32_t geometry, const glm::dmat4& objectToWorld, uint32_t flags) {
+    gpu::InstanceRecord r{};
+    r.objectToWorld = glm::mat4x3(glm::mat4(objectToWorld));
+    r.worldToObject = glm::mat4x3(glm::mat4(glm::inverse(objectToWorld)));
+    r.geometry = geometry;
+    r.flags = flags;
+    return r;
+}
+
+glm::dmat4 randomPlacement(Random& random, float half, bool distorted) {
+    glm::dmat4 m = glm::translate(glm::dmat4(1.0), glm::dvec3(random.point(half)));
+    m = glm::rotate(m, double(random.between(0.0f, 2.0f * PI)), glm::dvec3(random.direction()));
+    if (!distorted) return m;
+    m = glm::scale(
+        m, glm::dvec3(random.between(0.2f, 2.0f), random.between(0.2f, 2.0f), random.between(0.2f, 2.0f)));
+    m = glm::rotate(m, double(random.between(0.0f, 2.0f * PI)), glm::dvec3(random.direction()));
+    return random.below(2) ? glm::scale(m, glm::dvec3(-1.0, 1.0, 1.0)) : m;
+}
+
+std::vector<gpu::Ray> randomRays(uint32_t count, float half, uint32_t seed) {
+    Random random(seed);
+    std::vector<gpu::Ray> rays;
+    for (uint32_t i = 0; i < count; ++i)
+        rays.push_back(rayFrom(random.point(half), random.direction()));
+    return rays;
+}
+
+std::vector<gpu::Ray> aimedRays(const RayScene& scene, uint32_t count, float half, uint32_t seed) {
+    Random random(seed);
+    std::vector<gpu::Ray> rays;
+    for (uint32_t i = 0; i < count; ++i) {
+        const gpu::InstanceRecord& instance = scene.instances[random.below(uint32_t(scene.instances.size()))];
+        const TriangleMesh& mesh = scene.meshes[instance.geometry];
+        const glm::uvec3 triangle = mesh.triangles[random.below(uint32_t(mesh.triangles.size()))];
+        const uint32_t first = random.below(3);
+        const glm::vec3 a = mesh.positions[triangle[first]], b = mesh.positions[triangle[(first + 1) % 3]],
+                        c = mesh.positions[triangle[(first + 2) % 3]];
+        const float s = random.between(0.0f, 1.0f), t = random.between(0.0f, 1.0f - s);
+        const glm::vec3 targets[3] = {a, a + s * (b - a), a + s * (b - a) + t * (c - a)};
+        const glm::vec3 origin = random.point(half);
+        const glm::vec3 way = toWorld(instance, targets[i % 3]) - origin;
+        rays.push_back(rayFrom(origin, glm::dot(way, way) > 0.0f ? glm::normalize(way) : glm::vec3(0, 0, 1)));
+    }
+    return rays;
+}
+
+std::vector<gpu::Ray> axisRays(uint32_t count, float half, uint32_t steps, uint32_t seed) {
+    Random random(seed);
+    std::vector<gpu::Ray> rays;
+    for (uint32_t i = 0; i < count; ++i) {
+        glm::vec3 origin, direction(0.0f);
+        for (int a = 0; a < 3; ++a)
+            origin[a] = half * (2.0f * float(random.below(steps + 1)) / float(steps) - 1.0f);
+        const int axis = int(random.below(3));
+        direction[axis] = random.below(2) ? 1.0f : -1.0f;
+        origin[axis] = -1.5f * half * direction[axis];
+        rays.push_back(rayFrom(origin, direction));
+    }
+    return rays;
+}
+
+} // namespace hipr::test

@@ -1,0 +1,59 @@
+/// @file ray_scenes.h
+/// Meshes, placements and rays for traversal tests. Everything is a function of its seed.
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "shaders/shared/queue.h"
+#include "shaders/shared/scene.h"
+
+namespace hipr::test {
+
+struct TriangleMesh {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::uvec3> triangles;
+};
+
+struct RayScene {
+    std::vector<TriangleMesh> meshes;
+    std::vector<gpu::InstanceRecord> instances;
+};
+
+class Random {
+public:
+    explicit Random(uint32_t seed) : _engine(seed) {}
+    uint32_t below(uint32_t n) { return std::uniform_int_distribution<uint32_t>(0, n - 1)(_engine); }
+    float between(float lo, float hi) { return std::uniform_real_distribution<float>(lo, hi)(_engine); }
+    glm::vec3 point(float half) { return {between(-half, half), between(-half, half), between(-half, half)}; }
+    glm::vec3 direction();
+
+private:
+    std::mt19937 _engine;
+};
+
+/// Disconnected triangles with corners within `size` of centres in a cube of half width `half`.
+TriangleMesh soup(uint32_t count, float half, float size, uint32_t seed);
+/// A closed sphere with bumps: 2 * rings * rings triangles, poles included.
+TriangleMesh bumpySphere(uint32_t rings, float radius);
+/// A square in an axis plane, `cells` x `cells` x 2 triangles; axis-parallel rays in its plane meet it
+/// edge-on.
+TriangleMesh grid(uint32_t cells, float half, int axis);
+
+gpu::InstanceRecord placed(uint32_t geometry, const glm::dmat4& objectToWorld, uint32_t flags = 0);
+/// Random rotation, translation and, when asked, non-uniform scale and mirroring.
+glm::dmat4 randomPlacement(Random& random, float half, bool distorted);
+
+/// Random rays around a scene of half width `half`.
+std::vector<gpu::Ray> randomRays(uint32_t count, float half, uint32_t seed);
+/// Rays from random points aimed at vertices, edge points and interior points of the scene's triangles, in
+/// turn.
+std::vector<gpu::Ray> aimedRays(const RayScene& scene, uint32_t count, float half, uint32_t seed);
+/// Axis-parallel rays with origins on a lattice of `steps` a side, so that they run in planes and along edges
+/// of grids.
+std::vector<gpu::Ray> axisRays(uint32_t count, float half, uint32_t steps, uint32_t seed);
+
+} // namespace hipr::test
