@@ -139,7 +139,7 @@ HdHiprMesh::Rebuild HdHiprMesh::syncPrimvars(HdSceneDelegate* delegate, HdDirtyB
             }
             VtIntArray indices;
             const VtValue value = readPrimvar(delegate, pv.name, &indices);
-            rebuild = std::max(rebuild, setPrimvar(delegate, pv, value, indices));
+            rebuild = std::max(rebuild, setPrimvar(pv, value, indices));
         }
     }
     if (!listed(HdTokens->points) && (bits & HdChangeTracker::DirtyPoints)) {
@@ -154,7 +154,7 @@ HdHiprMesh::Rebuild HdHiprMesh::syncPrimvars(HdSceneDelegate* delegate, HdDirtyB
     return rebuild;
 }
 
-bool HdHiprMesh::syncComputedPrimvars(HdSceneDelegate* delegate, HdDirtyBits bits, TfTokenVector* names,
+void HdHiprMesh::syncComputedPrimvars(HdSceneDelegate* delegate, HdDirtyBits bits, TfTokenVector* names,
                                       Rebuild* rebuild) {
     HdExtComputationPrimvarDescriptorVector dirty;
     for (int i = 0; i < HdInterpolationCount; ++i) {
@@ -168,7 +168,7 @@ bool HdHiprMesh::syncComputedPrimvars(HdSceneDelegate* delegate, HdDirtyBits bit
         }
     }
     if (dirty.empty()) {
-        return false;
+        return;
     }
     const auto values = HdExtComputationUtils::GetComputedPrimvarValues(dirty, delegate);
     for (auto const& pv : dirty) {
@@ -178,9 +178,8 @@ bool HdHiprMesh::syncComputedPrimvars(HdSceneDelegate* delegate, HdDirtyBits bit
                      "the computation of primvar '" + pv.name.GetString() + "' gave no value");
             continue;
         }
-        *rebuild = std::max(*rebuild, setPrimvar(delegate, pv, value->second, VtIntArray()));
+        *rebuild = std::max(*rebuild, setPrimvar(pv, value->second, VtIntArray()));
     }
-    return true;
 }
 
 HdHiprMesh::Rebuild HdHiprMesh::setPoints(VtValue const& value) {
@@ -188,8 +187,8 @@ HdHiprMesh::Rebuild HdHiprMesh::setPoints(VtValue const& value) {
     return Rebuild::Points;
 }
 
-HdHiprMesh::Rebuild HdHiprMesh::setPrimvar(HdSceneDelegate*, HdPrimvarDescriptor const& descriptor,
-                                           VtValue const& value, VtIntArray const& indices) {
+HdHiprMesh::Rebuild HdHiprMesh::setPrimvar(HdPrimvarDescriptor const& descriptor, VtValue const& value,
+                                           VtIntArray const& indices) {
     if (descriptor.name == HdTokens->points) {
         return setPoints(value);
     }

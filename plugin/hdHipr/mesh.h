@@ -35,10 +35,10 @@ private:
 
     Rebuild syncTopology(HdSceneDelegate* delegate, HdDirtyBits bits, TfToken const& reprToken);
     Rebuild syncPrimvars(HdSceneDelegate* delegate, HdDirtyBits bits);
-    Rebuild setPrimvar(HdSceneDelegate* delegate, HdPrimvarDescriptor const& descriptor, VtValue const& value,
+    Rebuild setPrimvar(HdPrimvarDescriptor const& descriptor, VtValue const& value,
                        VtIntArray const& indices);
     Rebuild setPoints(VtValue const& value);
-    bool syncComputedPrimvars(HdSceneDelegate* delegate, HdDirtyBits bits, TfTokenVector* names,
+    void syncComputedPrimvars(HdSceneDelegate* delegate, HdDirtyBits bits, TfTokenVector* names,
                               Rebuild* rebuild);
     void sendGeometry(Rebuild rebuild, HdHiprRenderParam& param);
     void sendObject(HdSceneDelegate* delegate, HdHiprRenderParam& param);
