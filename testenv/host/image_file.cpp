@@ -51,7 +51,11 @@ float ImageFile::at(const std::string& channel, double x, double y) const {
 }
 
 uint32_t ImageFile::idAt(const std::string& channel, double x, double y) const {
-    return readChannel<uint32_t>(_path, _spec, channel, OIIO::TypeUInt)[pixel(x, y)];
+    return ids(channel)[pixel(x, y)];
+}
+
+std::vector<uint32_t> ImageFile::ids(const std::string& channel) const {
+    return readChannel<uint32_t>(_path, _spec, channel, OIIO::TypeUInt);
 }
 
 } // namespace hipr::test

@@ -23,6 +23,7 @@ public:
     uint32_t idAt(const std::string& channel, double x, double y) const;
     /// All values of a channel.
     std::vector<float> values(const std::string& channel) const;
+    std::vector<uint32_t> ids(const std::string& channel) const;
 
 private:
     size_t pixel(double x, double y) const;
