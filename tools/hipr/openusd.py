@@ -27,7 +27,7 @@ CORE = "core"
 FULL = "full"
 
 # CPU minutes on one core of a 2-core cloud machine; only for what is said before a stage starts.
-CPU_MINUTES = {CORE: 20.0, FULL: 20.0}
+CPU_MINUTES = {CORE: 18.0, FULL: 18.0}
 DISK_NEEDED = 3 << 30   # bytes, sources and objects of both stages and the result
 JOB_MEMORY = 1_200_000  # KiB that one compilation may take
 

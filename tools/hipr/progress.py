@@ -28,6 +28,8 @@ class NinjaProgress:
     WINDOW = 60  # steps; the speed is that of the recent ones
 
     def __init__(self, pending: Iterable[str]):
+        pending = list(pending)
+        self._steps = len(pending)
         self._total = sum(weight(step) for step in pending) or 1.0
         self._done = 0.0
         self._recent: deque = deque(maxlen=self.WINDOW)
@@ -59,8 +61,12 @@ class NinjaProgress:
         if not match:
             return None
         self._done += weight(match.group(3))
+        step, steps = int(match.group(1)), int(match.group(2))
+        if steps != self._steps:  # CMake ran again first: the plan that was asked for is not the one that runs
+            self._steps = steps
+            self._total = self._done + (steps - step)
         self._recent.append((time.monotonic(), self._done))
         left = self.seconds_left()
         percent = min(99, int(100 * self._done / self._total))
-        return (f"{percent:2d} %  step {match.group(1)} of {match.group(2)}"
+        return (f"{percent:2d} %  step {step} of {steps}"
                 + (f", about {duration(left)} left" if left is not None else ""))

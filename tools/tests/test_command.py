@@ -97,6 +97,12 @@ class Progress(unittest.TestCase):
         self.assertIn("50 %", text)
         self.assertIn("about 1 min 40 s left", text)
 
+    def test_a_plan_that_grew_is_followed(self):
+        read = progress.NinjaProgress(["Re-running CMake..."])
+        read.read("[0/1] Re-running CMake...")
+        read.read("[10/100] Building CXX object a.o")
+        self.assertAlmostEqual(read.remaining, 90.0)
+
     def test_other_lines_are_not_steps(self):
         self.assertIsNone(progress.NinjaProgress([]).read("warning: something"))
 
