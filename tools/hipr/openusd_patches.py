@@ -119,6 +119,18 @@ HIPR_WEAK void* (*__MALLOC_HOOK_VOLATILE __memalign_hook)(size_t __alignment, si
 HIPR_WEAK void (*__MALLOC_HOOK_VOLATILE __free_hook)(void* __ptr,  const void*) = nullptr;
 """),
     Patch(
+        "pxr/usdImaging/usdImaging/materialAdapter.cpp",
+        "a node is marked as visited only after its inputs, so that shaders which feed each other in a circle overflow "
+        "the stack of any host; marked before, the delegate receives the circle and reports it",
+        """    if (visitedNodes->count(node.path) > 0) {
+        return;
+    }
+""",
+        """    if (!visitedNodes->insert(node.path).second) {
+        return;
+    }
+"""),
+    Patch(
         "pxr/base/tf/CMakeLists.txt",
         "the crate carries no tests, and these belong to one although they are listed with the Python modules",
         """        testenv/__init__.py
