@@ -24,6 +24,9 @@ std::optional<hipr::AovRequest> aovRequest(TfToken const& name) {
         {HdAovTokens->elementId, AovKind::ElementId},
         {TfToken("albedo"), AovKind::Albedo},
         {TfToken("sampleCount"), AovKind::SampleCount},
+        {TfToken("hipr:priority"), AovKind::Priority},
+        {TfToken("hipr:age"), AovKind::Age},
+        {TfToken("hipr:discovered"), AovKind::Discovered},
     };
     const auto found = kinds.find(name);
     if (found != kinds.end()) {
@@ -59,7 +62,12 @@ HdAovDescriptor aovDescriptor(TfToken const& name) {
     case AovKind::ElementId:
         return HdAovDescriptor(HdFormatInt32, false, VtValue(-1));
     case AovKind::SampleCount:
+    case AovKind::Discovered:
         return HdAovDescriptor(HdFormatInt32, false, VtValue(0));
+    case AovKind::Age:
+        return HdAovDescriptor(HdFormatInt32, false, VtValue(-1));
+    case AovKind::Priority:
+        return HdAovDescriptor(HdFormatFloat32, false, VtValue(0.f));
     case AovKind::Albedo:
         return HdAovDescriptor(HdFormatFloat32Vec3, true, VtValue(GfVec3f(0.f)));
     case AovKind::Normal:
@@ -71,7 +79,8 @@ HdAovDescriptor aovDescriptor(TfToken const& name) {
 }
 
 bool changesWithSamples(AovKind kind) {
-    return kind == AovKind::Color || kind == AovKind::Albedo || kind == AovKind::SampleCount;
+    return kind == AovKind::Color || kind == AovKind::Albedo || kind == AovKind::SampleCount ||
+           kind == AovKind::Priority || kind == AovKind::Age || kind == AovKind::Discovered;
 }
 
 } // namespace hdhipr

@@ -210,12 +210,15 @@ VtDictionary HdHiprRenderDelegate::GetRenderStats() const {
     }
     const LoopStats loop = _param->loop()->stats();
     const hipr::Progress& progress = loop.progress;
-    const double total = progress.samplesTotal > 0 ? progress.samplesTotal : 1;
-    stats["percentDone"] = _param->loop()->converged() ? 100.0 : 100.0 * progress.samplesDone / total;
+    stats["percentDone"] = _param->loop()->converged() ? 100.0 : 100.0 * progress.fraction;
     stats[HdPerfTokens->numCompletedSamples.GetString()] = int(progress.samplesDone);
     stats["totalClockTime"] = progress.seconds;
     stats["hipr:paths"] = progress.pathsTraced;
     stats["hipr:rays"] = progress.raysTraced;
+    stats["hipr:tiles"] = int(progress.tiles);
+    stats["hipr:tilesDiscovered"] = int(progress.tilesDiscovered);
+    stats["hipr:firstRevealTime"] = progress.firstRevealSeconds;
+    stats["hipr:scheduleShare"] = progress.seconds > 0 ? progress.scheduleSeconds / progress.seconds : 0.0;
     stats["hipr:device"] = _param->loop()->renderer().device().name;
     stats["peakMemory"] = peakMemory();
     for (hipr::MemoryReport::Row const& row : loop.memory.rows) {

@@ -190,18 +190,20 @@ void RenderLoop::pickUp() {
 
 void RenderLoop::publish(bool last) {
     const auto now = std::chrono::steady_clock::now();
-    if (!last &&
-        (_renderer->progress().samplesDone == 0 || (_shown.load() && now - _lastPublish < publishInterval))) {
+    const hipr::Progress progress = _renderer->progress();
+    const bool fresh = progress.fraction > 0 && progress.pictureShown;
+    if (!last && (!fresh || (_shown.load() && now - _lastPublish < publishInterval))) {
         return;
     }
     std::lock_guard<std::mutex> lock(_publishMutex);
     for (AovTarget const& target : _shownFrame.targets) {
-        if (!target.aov || (_firstHitsShown && !changesWithSamples(target.aov->kind))) {
+        const bool firstHit = target.aov && !changesWithSamples(target.aov->kind);
+        if (!target.aov || (firstHit && (_firstHitsShown || !progress.firstHitsDone))) {
             continue;
         }
         publishTarget(target);
     }
-    _firstHitsShown = true;
+    _firstHitsShown = progress.firstHitsDone;
     _lastPublish = now;
     _shown.store(true);
 }

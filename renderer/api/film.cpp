@@ -13,11 +13,14 @@ AovFormat aovFormat(AovKind kind) {
         return {3, false};
     case AovKind::Depth:
     case AovKind::CameraDepth:
+    case AovKind::Priority:
         return {1, false};
     case AovKind::PrimId:
     case AovKind::InstanceId:
     case AovKind::ElementId:
     case AovKind::SampleCount:
+    case AovKind::Age:
+    case AovKind::Discovered:
         return {1, true};
     }
     return {1, false};

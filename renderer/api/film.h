@@ -7,7 +7,8 @@
 namespace hipr {
 
 /// Colours are scene-linear and unclamped. Ids are -1 where no surface is seen. "First hit" AOVs come from one ray
-/// through the pixel centre; color and albedo are means over all samples of the pixel.
+/// through the pixel centre; color and albedo are means over all samples of the pixel. The last four tell of
+/// HiPR's tiles.
 enum class AovKind : uint32_t {
     Color,       ///< float4, premultiplied alpha
     Albedo,      ///< float3
@@ -19,7 +20,10 @@ enum class AovKind : uint32_t {
     InstanceId,  ///< int
     ElementId,   ///< int, authored face index
     Primvar,     ///< float3, a named primvar at the first hit (missing components are 0)
-    SampleCount, ///< int, samples in the mean of this pixel
+    SampleCount, ///< int, samples of the current scene in the mean of this pixel; 0: it shows an older picture
+    Priority,    ///< float, how much the last edit is estimated to change the pixel's tile, as radiance
+    Age,         ///< int, edits since the pixel's picture was rendered; 0: it is current
+    Discovered,  ///< int, 1 where the last edit was found to show, and 0
 };
 
 struct AovRequest {

@@ -50,7 +50,17 @@ struct Progress {
     uint64_t raysTraced = 0;    ///< nearestRays + shadowRays
     uint64_t nearestRays = 0;   ///< of camera, bounces, and walks through transparent surfaces
     uint64_t shadowRays = 0;
-    double seconds = 0;         ///< time spent in render() since the last restart
+    double seconds = 0;         ///< time spent in renderBatch() since the last restart
+    double fraction = 0;        ///< of all samples of all pixels, 0..1
+    bool pictureShown = false;  ///< every pixel of the film holds a picture, of this scene or an earlier one
+    bool firstHitsDone = false; ///< the first-hit AOVs show the current scene
+
+    // HiPR, since the last restart
+    uint32_t tiles = 0;              ///< of the picture
+    uint32_t tilesDiscovered = 0;    ///< in which the edit was found to show
+    uint64_t scoutPaths = 0;         ///< traced to find them
+    double scheduleSeconds = 0;      ///< spent on finding and ordering them
+    double firstRevealSeconds = 0;   ///< from the edit to its first refreshed tiles; 0: not yet
     bool converged = false;     ///< no more will come: all samples are done, or there is nothing that can be rendered
 };
 

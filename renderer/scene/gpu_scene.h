@@ -34,6 +34,14 @@ public:
     /// Loads textures, uploads tables, builds acceleration structures. Blocking.
     void commit();
 
+    /// Where changed objects were: after apply(), before commit().
+    std::vector<WorldBox> takeVacated() { return _objects.takeVacated(); }
+    /// Adds where changed objects are: after commit().
+    void addOccupied(const ChangedSet& changed, std::vector<WorldBox>& regions) const {
+        for (const ChangedElement& element : changed.elements)
+            _objects.addOccupied(element, regions);
+    }
+
     const std::optional<CameraDesc>& camera() const { return _camera; }
     NameTable& names() { return _names; }
     /// The SceneRecord, once committed.

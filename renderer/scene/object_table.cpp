@@ -64,6 +64,7 @@ void ObjectTable::setObject(ObjectId id, const ObjectDesc& desc, ChangedSet& cha
         if (entry.desc->visible != desc.visible) change = change | Change::Visibility;
         if (entry.desc->primId != desc.primId) change = change | Change::Primvar;
         note(changed, id, change);
+        if (change != Change::None) vacate(entry);
     }
     entry.boundsPending = true;
     entry.missingReported = false;
@@ -76,16 +77,24 @@ void ObjectTable::setInstances(ObjectId id, const InstancesDesc& desc, ChangedSe
     const bool sameData = old.instanceIds == desc.instanceIds && old.primvars == desc.primvars;
     if (!sameData || old.transforms.size() != desc.transforms.size()) {
         note(changed, id, sameData ? Change::Transform : Change::Transform | Change::Primvar);
+        vacate(entry);
     } else {
-        for (size_t i = 0; i < old.transforms.size(); ++i)
-            if (old.transforms[i] != desc.transforms[i]) note(changed, id, Change::Transform, uint32_t(i));
+        for (uint32_t i = 0; i < old.transforms.size(); ++i) {
+            if (old.transforms[i] == desc.transforms[i]) continue;
+            note(changed, id, Change::Transform, i);
+            vacate(entry, i);
+        }
     }
     entry.instances = desc;
     entry.transformsPending = true;
 }
 
 void ObjectTable::removeObject(ObjectId id, ChangedSet& changed) {
-    if (_entries.erase(id)) note(changed, id, Change::Removed);
+    const auto found = _entries.find(id);
+    if (found == _entries.end()) return;
+    vacate(found->second);
+    _entries.erase(found);
+    note(changed, id, Change::Removed);
 }
 
 void ObjectTable::geometryChanged(GeometryId geometry, Change change, ChangedSet& changed) {
@@ -94,6 +103,7 @@ void ObjectTable::geometryChanged(GeometryId geometry, Change change, ChangedSet
         entry.boundsPending = true;
         entry.missingReported = false;
         note(changed, id, change == Change::Primvar ? Change::Primvar : Change::Geometry);
+        vacate(entry);
     }
 }
 
@@ -208,18 +218,52 @@ void ObjectTable::writeRecords(ObjectId id, Entry& entry) {
     }
 }
 
-void ObjectTable::updateBounds(Entry& entry, const TriangleMesh& mesh) {
-    const glm::vec3 centre = 0.5f * (mesh.boundsMin + mesh.boundsMax),
-                    half = 0.5f * (mesh.boundsMax - mesh.boundsMin);
-    entry.boundsMin = glm::vec3(std::numeric_limits<float>::max());
-    entry.boundsMax = -entry.boundsMin;
-    for (uint32_t i = 0; i < entry.placed.count; ++i) {
-        const glm::mat4x3& m = _records[entry.placed.first + i].objectToWorld;
-        const glm::vec3 c = m * glm::vec4(centre, 1.f);
-        const glm::vec3 h = glm::abs(m[0]) * half.x + glm::abs(m[1]) * half.y + glm::abs(m[2]) * half.z;
-        entry.boundsMin = glm::min(entry.boundsMin, c - h);
-        entry.boundsMax = glm::max(entry.boundsMax, c + h);
+/// The world box of a committed record.
+WorldBox ObjectTable::placedBox(const Entry& entry, uint32_t record) const {
+    const glm::vec3 centre = 0.5f * (entry.meshBox.min + entry.meshBox.max),
+                    half = 0.5f * (entry.meshBox.max - entry.meshBox.min);
+    const glm::mat4x3& m = _records[record].objectToWorld;
+    const glm::vec3 c = m * glm::vec4(centre, 1.f);
+    const glm::vec3 h = glm::abs(m[0]) * half.x + glm::abs(m[1]) * half.y + glm::abs(m[2]) * half.z;
+    return {c - h, c + h};
+}
+
+/// The committed box of one instance or of all; empty if it is not rendered.
+WorldBox ObjectTable::instanceBox(const Entry& entry, uint32_t instance) const {
+    if (entry.placed.count == 0) return {};
+    if (instance == ChangedElement::AllInstances) return entry.box;
+    const auto found = std::lower_bound(entry.usable.begin(), entry.usable.end(), instance);
+    const bool usable = found != entry.usable.end() && *found == instance;
+    return usable ? placedBox(entry, entry.placed.first + uint32_t(found - entry.usable.begin()))
+                  : WorldBox();
+}
+
+void ObjectTable::vacate(const Entry& entry, uint32_t instance) {
+    const WorldBox box = instanceBox(entry, instance);
+    if (!box.empty()) _vacated.push_back(box);
+}
+
+void ObjectTable::addOccupied(const ChangedElement& element, std::vector<WorldBox>& regions) const {
+    const auto add = [&](const WorldBox& box) {
+        if (!box.empty()) regions.push_back(box);
+    };
+    if (const ObjectId* id = std::get_if<ObjectId>(&element.element)) {
+        const auto found = _entries.find(*id);
+        if (found != _entries.end()) add(instanceBox(found->second, element.instance));
+    } else if (const MaterialId* material = std::get_if<MaterialId>(&element.element)) {
+        for (const auto& [object, entry] : _entries) {
+            if (!entry.desc) continue;
+            const std::vector<MaterialId>& materials = entry.desc->materials;
+            if (std::find(materials.begin(), materials.end(), *material) != materials.end()) add(entry.box);
+        }
     }
+}
+
+void ObjectTable::updateBounds(Entry& entry, const TriangleMesh& mesh) {
+    entry.meshBox = {mesh.boundsMin, mesh.boundsMax};
+    entry.box = {};
+    for (uint32_t i = 0; i < entry.placed.count; ++i)
+        entry.box.add(placedBox(entry, entry.placed.first + i));
 }
 
 bool ObjectTable::commit(const GeometryTable& geometries, const MaterialTable* materials) {
@@ -278,8 +322,8 @@ void ObjectTable::summarise(const GeometryTable& geometries) {
         if (entry.placed.count == 0) continue;
         if (entry.boundsPending) updateBounds(entry, *geometries.find(entry.desc->geometry)->mesh);
         entry.boundsPending = false;
-        _boundsMin = glm::min(_boundsMin, entry.boundsMin);
-        _boundsMax = glm::max(_boundsMax, entry.boundsMax);
+        _boundsMin = glm::min(_boundsMin, entry.box.min);
+        _boundsMax = glm::max(_boundsMax, entry.box.max);
         _nonOpaque |= (entry.placed.flags & gpu::INSTANCE_NON_OPAQUE) != 0;
     }
     if (_records.empty()) _boundsMin = _boundsMax = glm::vec3(0.f);

@@ -4,9 +4,11 @@
 
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "renderer/scene/geometry_table.h"
+#include "renderer/scene/world_box.h"
 #include "renderer/shading/materials.h"
 
 namespace hipr {
@@ -29,6 +31,12 @@ public:
     bool commit(const GeometryTable& geometries, const MaterialTable* materials);
 
     const std::vector<gpu::InstanceRecord>& records() const { return _records; }
+    /// Where objects that were changed since the last call had been before; for after the edits, before
+    /// commit().
+    std::vector<WorldBox> takeVacated() { return std::exchange(_vacated, {}); }
+    /// Where the element of a changed set is, once committed: an object's instance, or all that show a
+    /// material.
+    void addOccupied(const ChangedElement& element, std::vector<WorldBox>& regions) const;
     /// Fills instances, materialIndices, instanceCount, bounds and SCENE_HAS_NON_OPAQUE.
     void describe(gpu::SceneRecord& scene) const;
 
@@ -47,7 +55,7 @@ private:
         Buffer primvars;
         uint32_t primvarCount = 0;
         uint64_t primvarTable = 0;
-        glm::vec3 boundsMin, boundsMax;
+        WorldBox meshBox, box; ///< of the geometry, in object space; of all instances
         bool transformsPending = true, boundsPending = true;
         bool missingReported = false;
     };
@@ -61,6 +69,9 @@ private:
     void uploadRecords(const std::vector<std::pair<ObjectId, Entry*>>& rewritten);
     void summarise(const GeometryTable& geometries);
     void updateBounds(Entry& entry, const TriangleMesh& mesh);
+    void vacate(const Entry& entry, uint32_t instance = ChangedElement::AllInstances);
+    WorldBox placedBox(const Entry& entry, uint32_t record) const;
+    WorldBox instanceBox(const Entry& entry, uint32_t instance) const;
 
     Device& _device;
     NameTable& _names;
@@ -68,6 +79,7 @@ private:
     std::vector<gpu::InstanceRecord> _records;
     std::vector<uint32_t> _materialIndices;
     DeviceTable _recordTable, _materialTable;
+    std::vector<WorldBox> _vacated;
     glm::vec3 _boundsMin{0.f}, _boundsMax{0.f};
     bool _nonOpaque = false;
 };

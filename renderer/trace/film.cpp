@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "renderer/hipr/tile_aovs.h"
+
 namespace hipr {
 namespace {
 
@@ -10,7 +12,7 @@ constexpr uint32_t MaxSide = 65535;        // PathState::pixel packs both coordi
 constexpr uint64_t MaxPixels = 1ull << 30; // kernels count the words of an AOV in 32 bits
 
 bool isSum(AovKind kind) {
-    return kind == AovKind::Color || kind == AovKind::Albedo || kind == AovKind::SampleCount;
+    return kind == AovKind::Color || kind == AovKind::Albedo;
 }
 
 /// The word an AOV holds where nothing is seen.
@@ -25,7 +27,7 @@ uint32_t missWord(AovKind kind) {
 } // namespace
 
 void FilmBuffers::setDesc(const FilmDesc& desc) {
-    _sums = {}, _visibility = {}, _targets = {};
+    _sums = {}, _firstSamples = {}, _visibility = {}, _targets = {};
     _firstHits.clear();
     _desc = desc;
     const bool fits =
@@ -40,9 +42,10 @@ void FilmBuffers::setDesc(const FilmDesc& desc) {
     if (pixels() == 0) return;
 
     _sums = filled(pixels() * sizeof(gpu::FilmPixel), 0);
+    _firstSamples = _device.createBuffer(pixels() * sizeof(glm::vec3), MemoryUse::Device, "Film");
     std::vector<gpu::AovTarget> targets;
     for (const AovRequest& request : _desc.aovs) {
-        if (isSum(request.kind)) continue;
+        if (isSum(request.kind) || isTileAov(request.kind)) continue;
         const std::vector<uint32_t> miss(pixels() * aovFormat(request.kind).components,
                                          missWord(request.kind));
         _firstHits.push_back({request, _device.createFrom(miss.data(), miss.size(), "Film")});
@@ -63,6 +66,7 @@ Buffer FilmBuffers::filled(uint64_t bytes, uint32_t word) {
 
 void FilmBuffers::describe(gpu::TraceRecord& record) const {
     record.film = _sums ? _sums.address() : 0;
+    record.firstSamples = _firstSamples ? _firstSamples.address() : 0;
     record.visibility = _visibility ? _visibility.address() : 0;
     record.aovs = _targets ? _targets.address() : 0;
     record.aovCount = uint32_t(_firstHits.size());
@@ -70,8 +74,12 @@ void FilmBuffers::describe(gpu::TraceRecord& record) const {
     record.height = _height;
 }
 
+bool FilmBuffers::holds(const AovRequest& aov) const {
+    return std::find(_desc.aovs.begin(), _desc.aovs.end(), aov) != _desc.aovs.end();
+}
+
 bool FilmBuffers::read(const AovRequest& aov, void* dst, size_t words) const {
-    if (std::find(_desc.aovs.begin(), _desc.aovs.end(), aov) == _desc.aovs.end()) return false;
+    if (!holds(aov)) return false;
     if (words != pixels() * aovFormat(aov.kind).components) return false;
     if (words == 0) return true;
     if (isSum(aov.kind)) {
@@ -95,12 +103,8 @@ void FilmBuffers::readSums(AovKind kind, uint32_t* dst) const {
     for (uint64_t i = 0; i < pixels(); ++i) {
         const gpu::FilmPixel& sum = sums[i];
         const float weight = sum.count ? 1.f / float(sum.count) : 0.f;
-        if (kind == AovKind::SampleCount) {
-            dst[i] = sum.count;
-        } else {
-            const glm::vec4 mean = (kind == AovKind::Color ? sum.color : glm::vec4(sum.albedo, 0.f)) * weight;
-            std::memcpy(dst + i * components, &mean, components * sizeof(float));
-        }
+        const glm::vec4 mean = (kind == AovKind::Color ? sum.color : glm::vec4(sum.albedo, 0.f)) * weight;
+        std::memcpy(dst + i * components, &mean, components * sizeof(float));
     }
 }
 

@@ -30,7 +30,8 @@ public:
 
     void describe(gpu::TraceRecord& record) const;
 
-    /// See Renderer::readAov().
+    bool holds(const AovRequest& aov) const;
+    /// See Renderer::readAov(); for AOVs that are not of tiles (renderer/hipr/tile_aovs.h).
     bool read(const AovRequest& aov, void* dst, size_t words) const;
 
 private:
@@ -45,7 +46,7 @@ private:
     NameTable& _names;
     FilmDesc _desc; ///< as asked for
     uint32_t _width = 0, _height = 0;
-    Buffer _sums, _visibility, _targets;
+    Buffer _sums, _firstSamples, _visibility, _targets;
     std::vector<FirstHitAov> _firstHits;
 };
 

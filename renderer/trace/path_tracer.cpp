@@ -88,11 +88,11 @@ void PathTracer::resolveShadows(Steps& steps, uint32_t turn) {
     prepare(steps, 0, bit(gpu::QUEUE_TRANSMIT) | bit(gpu::QUEUE_TRANSMIT + 1));
 }
 
-bool PathTracer::trace(Traversal& traversal, const std::vector<gpu::TileWork>& tiles, uint32_t paths,
-                       const std::atomic<bool>& cancel) {
-    Steps steps(_device, traversal, _scene, _profile);
-    _device.upload(_buffers.tiles, tiles.data(), tiles.size() * sizeof(gpu::TileWork));
-    raygen(steps, tiles, paths);
+/// Takes the paths of the work from the camera to their ends.
+bool PathTracer::tracePaths(Steps& steps, const std::vector<gpu::TileWork>& work, uint32_t paths,
+                            const std::atomic<bool>& cancel) {
+    _device.upload(_buffers.tiles, work.data(), work.size() * sizeof(gpu::TileWork));
+    raygen(steps, work, paths);
     for (uint32_t round = 0;; ++round) {
         const uint32_t turn = round % 2, other = 1 - turn;
         if (cancel) return false;
@@ -105,6 +105,13 @@ bool PathTracer::trace(Traversal& traversal, const std::vector<gpu::TileWork>& t
         steps.flush();
         if (queueCount(gpu::QUEUE_RAYS + other) == 0 && queueCount(gpu::QUEUE_SHADOW + turn) == 0) break;
     }
+    return true;
+}
+
+bool PathTracer::trace(Traversal& traversal, const std::vector<gpu::TileWork>& tiles, uint32_t paths,
+                       const std::atomic<bool>& cancel) {
+    Steps steps(_device, traversal, _scene, _profile);
+    if (!tracePaths(steps, tiles, paths, cancel)) return false;
     uint32_t pixels = 0; // of the largest tile
     for (const gpu::TileWork& tile : tiles)
         pixels = std::max(pixels, tile.width * tile.height);
@@ -112,6 +119,21 @@ bool PathTracer::trace(Traversal& traversal, const std::vector<gpu::TileWork>& t
         kernel(KernelId::Resolve).dispatch(cmd, &p, groupsOf(pixels), count);
     });
     steps.flush();
+    return true;
+}
+
+bool PathTracer::scout(Traversal& traversal, const std::vector<gpu::TileWork>& work, uint32_t paths,
+                       const std::atomic<bool>& cancel, std::vector<gpu::ScoutResult>& results) {
+    Steps steps(_device, traversal, _scene, _profile);
+    if (!tracePaths(steps, work, paths, cancel)) return false;
+    gpu::TraceKernelPush p = push();
+    p.count = paths;
+    steps.run("scout", [this, p](VkCommandBuffer cmd) {
+        kernel(KernelId::Scout).dispatch(cmd, &p, groupsOf(p.count));
+    });
+    steps.flush();
+    results.resize(paths);
+    _device.download(_buffers.scoutResults, results.data(), paths * sizeof(gpu::ScoutResult));
     return true;
 }
 

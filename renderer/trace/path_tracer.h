@@ -9,7 +9,8 @@
 ///            -> shade                             collects light, scatters; fills the shadow queue and the
 ///            other
 ///            -> prepare                           ray queue; sizes the next dispatches
-///     resolve                                     adds the samples of each pixel to the film, in order
+///     resolve                                     adds the samples of each pixel to the film, in order; or
+///     scout                                       compares them with the picture on display (renderer/hipr)
 ///
 /// `nearest` and `occluded` are stages of a Traversal (renderer/accel). One that runs on the device is
 /// recorded between the kernels, several rounds to a submission; one on the host (Embree) runs between
@@ -56,6 +57,11 @@ public:
     bool trace(Traversal& traversal, const std::vector<gpu::TileWork>& tiles, uint32_t paths,
                const std::atomic<bool>& cancel);
 
+    /// Traces the work's samples (sample 0 of their pixels) and compares them with the picture on display, which
+    /// stays as it is. `results`: one a path, in the order of the slots. False when `cancel` was seen.
+    bool scout(Traversal& traversal, const std::vector<gpu::TileWork>& work, uint32_t paths,
+               const std::atomic<bool>& cancel, std::vector<gpu::ScoutResult>& results);
+
     /// Finds the first hits of pixels [first, first + count), count <= capacity, and stores their AOVs.
     bool findFirstHits(Traversal& traversal, uint32_t first, uint32_t count, const std::atomic<bool>& cancel);
 
@@ -63,6 +69,8 @@ public:
     gpu::TraceCounters takeCounters();
 
 private:
+    bool tracePaths(Steps& steps, const std::vector<gpu::TileWork>& work, uint32_t paths,
+                    const std::atomic<bool>& cancel);
     void raygen(Steps& steps, const std::vector<gpu::TileWork>& tiles, uint32_t paths);
     void prepare(Steps& steps, uint32_t close, uint32_t clear);
     void dispatchQueue(Steps& steps, const char* name, KernelId id, uint32_t queue, uint32_t turn);

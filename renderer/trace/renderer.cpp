@@ -3,6 +3,8 @@
 #include <iostream>
 #include <iterator>
 
+#include "renderer/hipr/footprint.h"
+#include "renderer/hipr/tile_aovs.h"
 #include "renderer/scene/camera.h"
 #include "renderer/trace/renderer_impl.h"
 
@@ -39,11 +41,23 @@ bool samePicture(const Settings& a, const Settings& b) {
     Settings c = a;
     c.samples = b.samples;
     c.traversal = b.traversal; // all traversals report the same hits
+    c.mode = b.mode;           // what is rendered first is no part of the picture
+    c.tileSize = b.tileSize;
+    c.scoutRate = b.scoutRate;
+    c.floorShare = b.floorShare;
     return c == b;
 }
 
+/// Share of the tiles beyond which an edit shows nearly everywhere.
+constexpr double WideEdit = 0.5;
+
 double secondsSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+bool anyCamera(const ChangedSet& changed) {
+    return std::any_of(changed.elements.begin(), changed.elements.end(),
+                       [](const ChangedElement& element) { return element.change & Change::Camera; });
 }
 
 } // namespace
@@ -106,8 +120,12 @@ ChangedSet RendererImpl::commit(SceneEdit& edit) {
     guarded([&] {
         changed = _scene.apply(edit.take());
         if (changed.empty()) return true;
+        std::vector<WorldBox> regions = _scene.takeVacated();
         _scene.commit();
-        restart();
+        _scene.addOccupied(changed, regions);
+        const bool camera = anyCamera(changed);
+        restart(camera ? Cause::Camera : Cause::Edit);
+        if (!camera) startSurvey(regions);
         return true;
     });
     return changed;
@@ -117,7 +135,7 @@ void RendererImpl::setFilm(const FilmDesc& film) {
     guarded([&] {
         if (film == _film.desc()) return true;
         _film.setDesc(film);
-        restart();
+        restart(Cause::Picture);
         return true;
     });
 }
@@ -132,20 +150,54 @@ void RendererImpl::setSettings(const Settings& settings) {
             {settings.enableSceneLights, settings.enableSceneMaterials, settings.domeLightCameraVisibility});
         if (options || traversal != _traversalInUse) _scene.commit();
         _setupPending = true;
-        if (!same) restart();
+        _schedule.setFloor(settings.floorShare);
+        if (tileSize() != _schedule.grid().tileSize)
+            restart(Cause::Picture);
+        else if (!same)
+            restart(Cause::Everything);
         std::lock_guard<std::mutex> lock(_progressMutex);
         _progress.samplesTotal = uint32_t(settings.samples);
         return true;
     });
 }
 
-void RendererImpl::restart() {
-    _schedule.restart(_film.width(), _film.height(), _internals.tileSize);
+uint32_t RendererImpl::tileSize() const {
+    if (_internals.tileSize) return _internals.tileSize;
+    const bool automatic = _settings.tileSize == "auto";
+    return automatic ? automaticTileSize(_film.width(), _film.height())
+                     : uint32_t(std::stoul(_settings.tileSize));
+}
+
+void RendererImpl::restart(Cause cause) {
+    const TileGrid grid(_film.width(), _film.height(), tileSize());
+    if (cause == Cause::Picture)
+        _schedule.reset(grid);
+    else
+        _schedule.invalidate();
+    if (cause != Cause::Edit) _schedule.forgetPriorities();
+    _schedule.setFloor(_settings.floorShare);
+    _surveying = false;
     _setupPending = true;
+    _restarted = Clock::now();
     _firstHitsDone = _film.wantsFirstHits() ? 0 : _film.pixels();
+    const char* names[] = {"picture", "edit", "camera", "everything"};
+    _log.restart(names[int(cause)], grid);
     std::lock_guard<std::mutex> lock(_progressMutex);
     _progress = {};
     _progress.samplesTotal = uint32_t(_settings.samples);
+    _progress.tiles = grid.count();
+    _progress.pictureShown = _schedule.everythingShown();
+}
+
+/// Looks for the tiles in which an edit shows. `regions`: where objects that changed were and are.
+void RendererImpl::startSurvey(const std::vector<WorldBox>& regions) {
+    if (_settings.mode == "uniform" || !_schedule.everythingShown() || !_scene.camera()) return;
+    const std::optional<gpu::CameraRecord> camera = cameraRecord(*_scene.camera());
+    if (!camera) return;
+    _survey.begin(_schedule.grid(), _settings.scoutRate, ++_edits);
+    for (const WorldBox& region : regions)
+        forTilesSeeing(_schedule.grid(), *camera, region, [&](uint32_t tile) { _survey.suspect(tile); });
+    _surveying = true;
 }
 
 /// Tells the path tracer what to render. False: there is nothing to render.
@@ -178,12 +230,40 @@ bool RendererImpl::renderBatch() {
         if (!setup()) return finish(), false;
         // Compiling may take seconds; the host stays in charge meanwhile.
         if (!_tracer.ready(std::chrono::milliseconds(50))) return true;
-        return _firstHitsDone < _film.pixels() ? renderFirstHits() : renderSamples();
+        if (_surveying) return survey();
+        const bool firstHits = _firstHitsDone < _film.pixels() && _schedule.discoveredRefreshed();
+        return firstHits ? renderFirstHits() : renderSamples();
     });
 }
 
+/// A batch of scouts; the last one puts the tiles in order.
+bool RendererImpl::survey() {
+    const auto start = Clock::now();
+    const std::vector<gpu::TileWork>& work = _survey.next(batchPaths());
+    const uint32_t paths = _survey.pathCount();
+    if (!work.empty()) {
+        if (!_tracer.scout(_scene.traversal(), work, paths, _cancel, _scoutResults)) return false;
+        _survey.report(_scoutResults);
+        _log.survey(paths);
+    } else {
+        const std::vector<float> priorities = _survey.priorities();
+        for (uint32_t tile = 0; tile < priorities.size(); ++tile)
+            _schedule.discover(tile, priorities[tile]);
+        _schedule.sort(false);
+        if (_schedule.discoveredTiles() > WideEdit * _schedule.grid().count()) _schedule.sort(true);
+        _surveying = false;
+        _log.order(_schedule);
+    }
+    count(0, secondsSince(start));
+    std::lock_guard<std::mutex> lock(_progressMutex);
+    _progress.scoutPaths = _survey.pathsTraced();
+    _progress.scheduleSeconds += secondsSince(start);
+    _progress.tilesDiscovered = _surveying ? 0 : _schedule.discoveredTiles();
+    return true;
+}
+
 bool RendererImpl::renderFirstHits() {
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     const uint32_t pixels = uint32_t(std::min<uint64_t>(_batch.paths(), _film.pixels() - _firstHitsDone));
     if (!_tracer.findFirstHits(_scene.traversal(), uint32_t(_firstHitsDone), pixels, _cancel)) return false;
     _firstHitsDone += pixels;
@@ -192,13 +272,13 @@ bool RendererImpl::renderFirstHits() {
 }
 
 bool RendererImpl::renderSamples() {
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     const uint32_t samples = uint32_t(_settings.samples);
-    const uint32_t wanted = _internals.batchPaths ? _internals.batchPaths : _batch.paths();
-    const std::vector<gpu::TileWork>& tiles = _schedule.next(wanted, samples);
+    const std::vector<gpu::TileWork>& tiles = _schedule.next(batchPaths(), samples);
     const uint32_t paths = _schedule.pathCount();
     if (!tiles.empty()) {
         if (!_tracer.trace(_scene.traversal(), tiles, paths, _cancel)) return false;
+        _log.batch(tiles, paths);
         _schedule.advance();
         _batch.report(paths, secondsSince(start));
     }
@@ -222,6 +302,11 @@ void RendererImpl::count(uint32_t paths, double seconds) {
     _progress.shadowRays += counters.shadowRays;
     _progress.raysTraced = _progress.nearestRays + _progress.shadowRays;
     _progress.seconds += seconds;
+    _progress.fraction = double(_schedule.pathsDone()) /
+                         std::max(1.0, double(_film.pixels()) * double(_progress.samplesTotal));
+    _progress.pictureShown = _schedule.everythingShown();
+    _progress.firstHitsDone = _firstHitsDone >= _film.pixels();
+    if (paths && _progress.firstRevealSeconds == 0) _progress.firstRevealSeconds = secondsSince(_restarted);
     _progress.converged = _progress.samplesDone >= _progress.samplesTotal;
 }
 
@@ -231,7 +316,12 @@ Progress RendererImpl::progress() const {
 }
 
 bool RendererImpl::readAov(const AovRequest& aov, void* dst, size_t words) {
-    return guarded([&] { return _film.read(aov, dst, words); });
+    return guarded([&] {
+        if (!isTileAov(aov.kind)) return _film.read(aov, dst, words);
+        if (!_film.holds(aov) || words != _film.pixels()) return false;
+        fillTileAov(aov.kind, _schedule, static_cast<uint32_t*>(dst));
+        return true;
+    });
 }
 
 MemoryReport RendererImpl::memory() const {

@@ -2,20 +2,23 @@
 /// The Renderer: scene, film, schedule and path tracer put together.
 #pragma once
 
+#include <chrono>
 #include <mutex>
 
 #include "renderer/api/renderer.h"
+#include "renderer/hipr/schedule.h"
+#include "renderer/hipr/schedule_log.h"
+#include "renderer/hipr/survey.h"
 #include "renderer/scene/gpu_scene.h"
 #include "renderer/trace/batch_size.h"
 #include "renderer/trace/film.h"
 #include "renderer/trace/path_tracer.h"
-#include "renderer/trace/schedule.h"
 
 namespace hipr {
 
 /// What tests vary to show that it makes no difference, and see to judge the device.
 struct RendererInternals {
-    uint32_t tileSize = UniformSchedule::DefaultTileSize;
+    uint32_t tileSize = 0;   ///< 0: as Settings::tileSize says
     uint32_t batchPaths = 0; ///< exact size of every batch; 0: steered by time
 };
 
@@ -38,14 +41,22 @@ public:
     const Settings& settings() const { return _settings; }
 
 private:
+    using Clock = std::chrono::steady_clock;
+    /// What made the samples of the picture invalid.
+    enum class Cause { Picture, Edit, Camera, Everything };
+
     template <class F> bool guarded(F&& work);
     void fail(const std::string& reason);
     void finish();
-    void restart();
+    void restart(Cause cause);
+    void startSurvey(const std::vector<WorldBox>& regions);
+    uint32_t tileSize() const;
     bool setup();
     void selectTraversal();
+    bool survey();
     bool renderFirstHits();
     bool renderSamples();
+    uint32_t batchPaths() const { return _internals.batchPaths ? _internals.batchPaths : _batch.paths(); }
     void count(uint32_t paths, double seconds);
 
     std::unique_ptr<Device> _device; ///< outlives everything below
@@ -54,10 +65,16 @@ private:
     std::string _traversalInUse;
     GpuScene _scene;
     FilmBuffers _film;
-    UniformSchedule _schedule;
+    TileSchedule _schedule;
+    Survey _survey;
+    ScheduleLog _log;
     PathTracer _tracer;
     BatchSize _batch;
+    std::vector<gpu::ScoutResult> _scoutResults;
     bool _failed = false, _setupPending = true, _nonFiniteReported = false, _cameraReported = false;
+    bool _surveying = false;
+    uint32_t _edits = 0;
+    Clock::time_point _restarted;
     uint64_t _firstHitsDone = 0; ///< pixels
     mutable std::mutex _progressMutex;
     Progress _progress;

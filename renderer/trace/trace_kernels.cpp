@@ -17,6 +17,7 @@ std::vector<KernelSource> traceKernelSources() {
         {shadow_spv, shadow_spv_size, push, "shadow"},
         {visibility_rays_spv, visibility_rays_spv_size, push, "visibility_rays"},
         {prepare_spv, prepare_spv_size, push, "prepare"},
+        {scout_spv, scout_spv_size, push, "scout"},
     };
 }
 

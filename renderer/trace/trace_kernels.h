@@ -9,7 +9,7 @@
 namespace hipr {
 
 /// In the order in which they compile, the longest first.
-enum class KernelId { Shade, Visibility, Transmit, Raygen, Resolve, Shadow, VisibilityRays, Prepare };
+enum class KernelId { Shade, Visibility, Transmit, Raygen, Resolve, Shadow, VisibilityRays, Prepare, Scout };
 
 /// The sources of all of them, indexed by KernelId.
 std::vector<KernelSource> traceKernelSources();

@@ -14,6 +14,8 @@ void addTo(inout vec3 sum, inout vec3 error, vec3 value) {
     sum = next;
 }
 
+layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer FirstSampleRef { vec3 v[]; };
+
 void main() {
     const TraceRecord trace = TraceRecordRef(push.record).v;
     const TileWork tile = TileRef(trace.tiles).v[gl_WorkGroupID.y];
@@ -27,10 +29,9 @@ void main() {
     vec3 color = sum.color.rgb;
     for (uint i = 0u; i < tile.sampleCount; ++i) {
         const PathState path = PathRef(trace.paths).v[tile.firstSlot + local * tile.sampleCount + i];
-        vec3 indirect = path.indirect;
-        const float largest = max(indirect.r, max(indirect.g, indirect.b));
-        if (trace.fireflyClamp > 0.0 && largest > trace.fireflyClamp) indirect *= trace.fireflyClamp / largest;
-        addTo(color, sum.colorError, path.radiance + indirect);
+        const vec3 radiance = pathRadiance(trace, path);
+        if (i == 0u && tile.firstSample == 0u) FirstSampleRef(trace.firstSamples).v[pixel] = radiance;
+        addTo(color, sum.colorError, radiance);
         addTo(sum.albedo, sum.albedoError, path.albedo);
         sum.color.a += path.alpha; // whole numbers
     }

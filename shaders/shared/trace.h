@@ -4,14 +4,14 @@
 #include "language.h"
 HIPR_SHARED_BEGIN
 
-// Work items: a rectangle of one tile times a range of samples. Slots are numbered tile-major, then pixel, then sample.
+// Work items: a lattice of pixels times a range of samples. Slots are numbered item-major, then pixel, then sample.
 struct TileWork {
     uint x, y;               // first pixel
-    uint width, height;      // pixels (clipped to the film)
+    uint width, height;      // pixels of the lattice, all within the film
     uint firstSample;
     uint sampleCount;
     uint firstSlot;
-    uint pad;
+    uint stride;             // distance of the lattice's pixels; 1: a rectangle of the film
 };
 
 // Pinhole or orthographic, from matrices. The ray through NDC (x, y) has
@@ -71,6 +71,15 @@ struct FilmPixel {
     vec3 albedoError;
 };
 
+// What one path of a scout tells: the radiance of its pixel's sample 0 in the current scene, against the same sample in
+// the picture on display.
+struct ScoutResult {
+    uint pixel;              // x + y * 65536
+    float change;            // mean over the channels of |new - old|
+    float difference;        // mean over the channels of new - old
+    float radiance;          // mean over the channels of new
+};
+
 // One AOV that is resolved from the first hit; one value a pixel.
 struct AovTarget {
     uint64_t values;
@@ -125,6 +134,8 @@ struct TraceRecord {
     uint64_t transmitHits;
     uint64_t film;           // FilmPixel[]
     uint64_t visibility;     // VisibilityRecord[]
+    uint64_t firstSamples;   // vec3[]: radiance of each pixel's sample 0 in the picture on display
+    uint64_t scoutResults;   // ScoutResult[]
     uint64_t aovs;           // AovTarget[aovCount]
     uint aovCount;
     uint width, height;      // film
@@ -142,7 +153,7 @@ struct TraceKernelPush {
     uint64_t record;         // TraceRecord
     uint turn;               // which of two queues is read
     uint first;              // visibility: first pixel; prepare: headers to close (bits 0..7), to clear (bits 8..15)
-    uint count;              // raygen, visibility: rays
+    uint count;              // raygen, visibility, scout: rays or paths
     uint pad;
 };
 

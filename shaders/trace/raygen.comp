@@ -13,7 +13,7 @@ void main() {
     if (local >= tile.width * tile.height * tile.sampleCount) return;
 
     const uint pixelInTile = local / tile.sampleCount;
-    const uvec2 pixel = uvec2(tile.x + pixelInTile % tile.width, tile.y + pixelInTile / tile.width);
+    const uvec2 pixel = uvec2(tile.x, tile.y) + tile.stride * uvec2(pixelInTile % tile.width, pixelInTile / tile.width);
     const uint slot = tile.firstSlot + local;
 
     PathState path;

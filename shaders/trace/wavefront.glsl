@@ -52,6 +52,14 @@ void addRadiance(TraceRecord trace, uint slot, vec3 value, bool indirect) {
         paths.v[slot].radiance += value;
 }
 
+// All the light a finished path brought to its pixel.
+vec3 pathRadiance(TraceRecord trace, PathState path) {
+    vec3 indirect = path.indirect;
+    const float largest = max(indirect.r, max(indirect.g, indirect.b));
+    if (trace.fireflyClamp > 0.0 && largest > trace.fireflyClamp) indirect *= trace.fireflyClamp / largest;
+    return path.radiance + indirect;
+}
+
 // Adds what a shadow ray carried.
 void arrive(TraceRecord trace, ShadowWork work) {
     addRadiance(trace, work.slot & ~SHADOW_INDIRECT, work.contribution, (work.slot & SHADOW_INDIRECT) != 0u);

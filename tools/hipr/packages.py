@@ -68,7 +68,11 @@ PACKAGES = (
     Package("python3-pyside2.qtopengl", "usdview's viewport", FULL),
     Package("python3-opengl", "usdview's viewport", FULL),
     Package("python3-numpy", "OpenUSD's Python arrays; comparing pictures in tests", FULL),
+    # Mesa's packages must be of one version; some come with others at an older one.
     Package("libgl1-mesa-dri", "OpenGL in software, for usdview and usdrecord", FULL, minimum="25"),
+    Package("libglx-mesa0", "the same, through GLX", FULL, minimum="25"),
+    Package("libegl-mesa0", "the same, through EGL", FULL, minimum="25"),
+    Package("libgbm1", "the same, its buffers", FULL, minimum="25"),
     Package("xvfb", "a display where there is none: usdrecord, and the tests that drive usdview", FULL),
     Package("xauth", "xvfb-run needs it", FULL),
 )

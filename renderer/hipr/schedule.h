@@ -1,0 +1,106 @@
+/// @file schedule.h
+/// Which tiles get which samples next.
+#pragma once
+
+#include <vector>
+
+#include "renderer/hipr/tile_grid.h"
+#include "shaders/shared/trace.h"
+
+namespace hipr {
+
+/// What is known of a tile.
+struct TileState {
+    uint32_t samples = 0;   ///< of the current scene, in the film; 0: the film shows an older picture there
+    uint32_t age = 0;       ///< edits since the picture of the tile was rendered; 0: it is current
+    float priority = 0.f;   ///< how much the edit is believed to show, 0: not discovered
+    bool everShown = false; ///< the film has held samples of this tile since it got its size
+};
+
+/// Brings a list of tiles to more and more samples, in order, pass after pass. The first pass takes one
+/// sample a pixel, so that a picture is there soon; later passes take as many as a batch has room for, at
+/// most doubling what is there.
+class TilePasses {
+public:
+    void restart(std::vector<uint32_t> tiles, const TileGrid& grid, const std::vector<TileState>& states);
+
+    /// Whether every tile has `samples` samples.
+    bool complete(uint32_t samples) const { return _tiles.empty() || _done >= samples; }
+    uint32_t done() const { return _done; } ///< samples every tile of the list has
+    bool firstPass() const { return _done == 0; }
+    const std::vector<uint32_t>& tiles() const { return _tiles; }
+    uint64_t pixels() const { return _pixels; }
+
+    /// Appends the next tiles that want samples, as long as the batch stays within `maxPaths`, but at least
+    /// one if the batch is empty. Returns how many tiles were looked at, for advance().
+    uint32_t append(std::vector<gpu::TileWork>& batch, uint32_t& paths, uint32_t maxPaths, uint32_t samples,
+                    const TileGrid& grid, const std::vector<TileState>& states);
+    void advance(uint32_t tiles);
+
+private:
+    std::vector<uint32_t> _tiles;
+    uint64_t _pixels = 0;
+    uint32_t _done = 0, _level = 1; ///< samples after the pass under way
+    uint32_t _next = 0;             ///< tile of the pass under way
+};
+
+/// The order of all tiles. Discovered tiles (priority above 0) come first, the most important ones leading,
+/// and are rendered to the last sample; the others follow, those whose picture is oldest leading. Meanwhile a
+/// share of the work, the floor, brings the others their first sample, so that nothing starves. Without
+/// discovered tiles this is uniform rendering.
+///
+/// Whatever the order, every tile gets its samples 0, 1, 2... once: the picture at N samples does not depend
+/// on it.
+class TileSchedule {
+public:
+    /// A picture of another size or other tiles: nothing has been shown yet.
+    void reset(const TileGrid& grid);
+    /// The scene changed. What the film shows is kept on display, tile by tile, until the first new sample.
+    /// Tiles that were discovered but not refreshed stay discovered.
+    void invalidate();
+    /// Forgets all priorities: the next tiles come in uniform order.
+    void forgetPriorities();
+
+    /// Adds to what is known of the edit; a tile keeps its greatest priority. Takes effect with sort().
+    void discover(uint32_t tile, float priority);
+    /// Orders the tiles. `everything`: the undiscovered ones go behind the discovered ones in the same list,
+    /// because the edit shows nearly everywhere.
+    void sort(bool everything);
+    /// Share of the work that goes to undiscovered tiles without a new sample, 0..1.
+    void setFloor(float share) { _floor = share; }
+
+    /// The next work, of about `maxPaths` paths at most (but at least one tile). Empty when every pixel has
+    /// `samples` samples. Work is handed out again until advance() accepts it, so an abandoned batch loses
+    /// nothing.
+    const std::vector<gpu::TileWork>& next(uint32_t maxPaths, uint32_t samples);
+    void advance();
+
+    const TileGrid& grid() const { return _grid; }
+    const std::vector<TileState>& tiles() const { return _states; }
+    /// Slots the work of the last next() fills.
+    uint32_t pathCount() const { return _paths; }
+    /// Samples that every pixel has.
+    uint32_t samplesDone() const;
+    /// Samples of all pixels of the current scene.
+    uint64_t pathsDone() const { return _pathsDone; }
+    /// Whether every tile has shown some picture.
+    bool everythingShown() const { return _neverShown == 0; }
+    /// Whether every discovered tile has a sample of the current scene.
+    bool discoveredRefreshed() const { return !_front.firstPass() || _front.tiles().empty(); }
+    uint32_t discoveredTiles() const { return _discovered; }
+
+private:
+    TileGrid _grid;
+    std::vector<TileState> _states;
+    TilePasses _front, _rest;
+    float _floor = 0.125f;
+    double _owed = 0; ///< paths the floor is behind with; below 0: what the discovered tiles have ahead
+    uint32_t _neverShown = 0, _discovered = 0;
+    uint64_t _pathsDone = 0;
+
+    std::vector<gpu::TileWork> _work; ///< handed out by next()
+    uint32_t _paths = 0, _frontTaken = 0, _restTaken = 0;
+    double _owedAfter = 0;
+};
+
+} // namespace hipr

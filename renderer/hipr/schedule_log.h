@@ -1,0 +1,41 @@
+/// @file schedule_log.h
+/// A record of what was rendered when, for measurements: HIPR_SCHEDULE_LOG=FILE in the environment.
+///
+/// One JSON object a line. Every line has `event`, `edit` (restarts so far) and `seconds` (since the log
+/// began).
+///   restart  `kind`: picture, edit, camera, everything; `width`, `height`, `tileSize`
+///   survey   `paths`: scouts of a batch
+///   order    `tiles`: [x, y, priority] of discovered tiles
+///   batch    `paths`, `tiles`: [x, y, width, height, firstSample, sampleCount]
+#pragma once
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+
+#include "renderer/hipr/schedule.h"
+
+namespace hipr {
+
+class ScheduleLog {
+public:
+    ScheduleLog();
+
+    void restart(const char* kind, const TileGrid& grid);
+    void survey(uint32_t paths);
+    void order(const TileSchedule& schedule);
+    void batch(const std::vector<gpu::TileWork>& work, uint32_t paths);
+
+private:
+    struct Close {
+        void operator()(std::FILE* file) const { std::fclose(file); }
+    };
+    void begin(const char* event);
+    void end();
+
+    std::unique_ptr<std::FILE, Close> _file;
+    std::chrono::steady_clock::time_point _start;
+    uint32_t _edit = 0;
+};
+
+} // namespace hipr

@@ -1,0 +1,103 @@
+#include <gtest/gtest.h>
+
+#include <map>
+#include <tuple>
+
+#include "renderer/hipr/schedule.h"
+#include "renderer/trace/batch_size.h"
+
+using hipr::TileSchedule;
+using hipr::gpu::TileWork;
+
+namespace {
+
+/// Marks every (pixel, sample) of a batch and checks its slots; returns its paths.
+uint32_t mark(const std::vector<TileWork>& work, uint32_t width, std::vector<std::vector<int>>& seen) {
+    uint32_t slot = 0;
+    for (const TileWork& tile : work) {
+        EXPECT_EQ(tile.firstSlot, slot);
+        slot += tile.width * tile.height * tile.sampleCount;
+        for (uint32_t y = tile.y; y < tile.y + tile.height; ++y)
+            for (uint32_t x = tile.x; x < tile.x + tile.width; ++x)
+                for (uint32_t s = tile.firstSample; s < tile.firstSample + tile.sampleCount; ++s)
+                    ++seen.at(x + y * width).at(s);
+    }
+    return slot;
+}
+
+} // namespace
+
+TEST(TileSchedule, GivesEveryPixelEverySampleOnceInOrder) {
+    for (auto [width, height, tile, maxPaths, samples] : {std::tuple{64u, 48u, 16u, 1000u, 5u},
+                                                          {7u, 5u, 16u, 4096u, 33u},
+                                                          {1u, 1u, 8u, 64u, 100u},
+                                                          {100u, 3u, 32u, 2048u, 7u},
+                                                          {33u, 65u, 16u, 1u << 20, 12u}}) {
+        TileSchedule schedule;
+        schedule.reset({width, height, tile});
+        std::vector<std::vector<int>> seen(width * height, std::vector<int>(samples));
+        std::vector<uint32_t> next(width * height);
+        while (true) {
+            const std::vector<TileWork>& work = schedule.next(maxPaths, samples);
+            if (work.empty()) break;
+            for (const TileWork& t :
+                 work) { // samples of a pixel come in order, or sums would round differently
+                EXPECT_EQ(next[t.x + t.y * width], t.firstSample);
+                next[t.x + t.y * width] += t.sampleCount;
+            }
+            const uint32_t paths = mark(work, width, seen);
+            EXPECT_EQ(paths, schedule.pathCount());
+            EXPECT_TRUE(paths <= maxPaths || work.size() == 1);
+            schedule.advance();
+        }
+        EXPECT_EQ(schedule.samplesDone(), samples);
+        for (const auto& pixel : seen)
+            for (int count : pixel)
+                ASSERT_EQ(count, 1);
+    }
+}
+
+TEST(TileSchedule, FirstPassTakesOneSample) {
+    TileSchedule schedule;
+    schedule.reset({32, 32, 16});
+    for (const TileWork& tile : schedule.next(1 << 16, 64))
+        EXPECT_EQ(tile.sampleCount, 1u);
+    schedule.advance();
+    EXPECT_EQ(schedule.samplesDone(), 1u);
+}
+
+TEST(TileSchedule, AbandonedWorkComesAgain) {
+    TileSchedule schedule;
+    schedule.reset({64, 64, 16});
+    const std::vector<TileWork> first = schedule.next(1024, 4);
+    const std::vector<TileWork> again = schedule.next(1024, 4);
+    ASSERT_EQ(first.size(), again.size());
+    for (size_t i = 0; i < first.size(); ++i)
+        EXPECT_TRUE(first[i].x == again[i].x && first[i].y == again[i].y);
+    schedule.advance();
+    EXPECT_NE(schedule.next(1024, 4)[0].y * 64 + schedule.next(1024, 4)[0].x, 0u);
+}
+
+TEST(TileSchedule, NothingToDo) {
+    TileSchedule schedule;
+    EXPECT_TRUE(schedule.next(1024, 4).empty());
+    schedule.reset({0, 100, 16});
+    EXPECT_TRUE(schedule.next(1024, 4).empty());
+    schedule.reset({4, 4, 16});
+    EXPECT_TRUE(schedule.next(1024, 0).empty());
+}
+
+TEST(BatchSize, FollowsTheClock) {
+    hipr::BatchSize batch(1 << 16);
+    const uint32_t first = batch.paths();
+    batch.report(first, 0.001);
+    EXPECT_EQ(batch.paths(), 2 * first);
+    for (int i = 0; i < 20; ++i)
+        batch.report(batch.paths(), 0.001);
+    EXPECT_EQ(batch.paths(), 1u << 16);
+    for (int i = 0; i < 20; ++i)
+        batch.report(batch.paths(), 1.0);
+    EXPECT_EQ(batch.paths(), hipr::BatchSize::Smallest);
+    batch.report(10, 0.001); // a small rest says nothing about full batches
+    EXPECT_EQ(batch.paths(), hipr::BatchSize::Smallest);
+}

@@ -1,0 +1,147 @@
+// Scouts find where pictures differ.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <set>
+
+#include "renderer/hipr/footprint.h"
+#include "renderer/hipr/survey.h"
+
+using namespace hipr;
+
+namespace {
+
+/// Runs a survey of a picture that changed by `change(x, y)`.
+std::vector<float> run(Survey& survey, const std::function<float(uint32_t, uint32_t)>& change,
+                       uint32_t maxPaths = 4096) {
+    while (true) {
+        const std::vector<gpu::TileWork> work = survey.next(maxPaths);
+        if (work.empty()) break;
+        std::vector<gpu::ScoutResult> results;
+        for (const gpu::TileWork& w : work) {
+            EXPECT_EQ(w.firstSlot, results.size());
+            for (uint32_t i = 0; i < w.width * w.height; ++i) {
+                const uint32_t x = w.x + w.stride * (i % w.width), y = w.y + w.stride * (i / w.width);
+                const float c = change(x, y);
+                results.push_back({x | y << 16, c, c, 1.f});
+            }
+        }
+        EXPECT_EQ(results.size(), survey.pathCount());
+        survey.report(results);
+    }
+    return survey.priorities();
+}
+
+} // namespace
+
+TEST(Survey, LooksAtTheWholePictureAtItsRate) {
+    const TileGrid grid(320, 200, 16);
+    Survey survey;
+    survey.begin(grid, 1.f / 64, 1);
+    std::set<uint32_t> tiles;
+    std::vector<float> priorities = run(survey, [&](uint32_t x, uint32_t y) {
+        EXPECT_LT(x, 320u);
+        EXPECT_LT(y, 200u);
+        tiles.insert(grid.at(x, y));
+        return 0.f;
+    });
+    EXPECT_EQ(tiles.size(), grid.count());
+    EXPECT_EQ(survey.pathsTraced(), 320u * 200 / 64);
+    for (float p : priorities)
+        EXPECT_EQ(p, 0.f);
+}
+
+TEST(Survey, BatchSizeDoesNotMatter) {
+    const TileGrid grid(100, 70, 16);
+    const auto change = [](uint32_t x, uint32_t y) { return x > 40 && x < 60 && y < 30 ? float(y) : 0.f; };
+    std::vector<float> expected;
+    for (uint32_t maxPaths : {1u, 13u, 200u, 1u << 16}) {
+        Survey survey;
+        survey.begin(grid, 1.f / 64, 5);
+        const std::vector<float> found = run(survey, change, maxPaths);
+        if (expected.empty()) expected = found;
+        EXPECT_EQ(found, expected) << maxPaths;
+    }
+}
+
+TEST(Survey, RanksTilesByTheirChange) {
+    const TileGrid grid(320, 320, 16);
+    Survey survey;
+    survey.begin(grid, 1.f / 64, 2);
+    const std::vector<float> priorities = run(survey, [](uint32_t x, uint32_t y) {
+        return x < 64 && y < 64 ? 1.f : x >= 256 && y >= 256 ? 0.25f : 0.f;
+    });
+    EXPECT_GT(priorities[grid.at(20, 20)], 2 * priorities[grid.at(300, 300)]);
+    EXPECT_GT(priorities[grid.at(300, 300)], 0.f);
+    EXPECT_EQ(priorities[grid.at(160, 160)], 0.f);
+}
+
+// Scouts hit 4 pixels of a tile at first; around hits it looks again, so that a thin band is found in all its
+// tiles.
+TEST(Survey, FollowsWhatItFinds) {
+    const TileGrid grid(512, 512, 16);
+    Survey survey;
+    survey.begin(grid, 1.f / 64, 3);
+    const auto onBand = [](uint32_t x, uint32_t y) { return x + y >= 500 && x + y < 512; };
+    const std::vector<float> priorities =
+        run(survey, [&](uint32_t x, uint32_t y) { return onBand(x, y) ? 1.f : 0.f; });
+    uint32_t showing = 0, found = 0;
+    for (uint32_t tile = 0; tile < grid.count(); ++tile) {
+        const TileRect r = grid.rect(tile);
+        uint32_t pixels = 0;
+        for (uint32_t i = 0; i < 256; ++i)
+            pixels += onBand(r.x + i % 16, r.y + i / 16);
+        showing += pixels > 12;
+        found += pixels > 12 && priorities[tile] > 0.f;
+    }
+    EXPECT_EQ(found, showing);
+    EXPECT_LT(survey.pathsTraced(), 512u * 512 / 64 * 2);
+}
+
+TEST(Survey, SuspectsGetMoreScouts) {
+    const TileGrid grid(256, 256, 16);
+    const auto count = [&](bool suspect) {
+        Survey survey;
+        survey.begin(grid, 1.f / 64, 4);
+        if (suspect) survey.suspect(17);
+        uint32_t scouts = 0;
+        run(survey, [&](uint32_t x, uint32_t y) {
+            scouts += grid.at(x, y) == 17;
+            return 0.f;
+        });
+        return scouts;
+    };
+    EXPECT_EQ(count(false), 4u);
+    EXPECT_EQ(count(true), 16u);
+}
+
+TEST(Survey, EditsInARowLookAtDifferentPixels) {
+    const TileGrid grid(64, 64, 16);
+    std::set<uint32_t> pixels;
+    for (uint32_t turn = 0; turn < 64; ++turn) {
+        Survey survey;
+        survey.begin(grid, 1.f / 64, turn);
+        run(survey, [&](uint32_t x, uint32_t y) {
+            pixels.insert(x % 8 + y % 8 * 8);
+            return 0.f;
+        });
+    }
+    EXPECT_GT(pixels.size(), 36u); // of 64; 64 random draws would find 41 on average
+}
+
+TEST(Footprint, IsWhereTheCameraSeesTheBox) {
+    gpu::CameraRecord camera{};
+    camera.worldToClip = glm::mat4(1.f); // sees [-1, 1]^2
+    const TileGrid grid(160, 160, 16);
+    const auto tiles = [&](glm::vec3 lo, glm::vec3 hi) {
+        std::set<uint32_t> seen;
+        forTilesSeeing(grid, camera, {lo, hi}, [&](uint32_t tile) { seen.insert(tile); });
+        return seen;
+    };
+    EXPECT_EQ(tiles({-0.55f, -0.55f, 0}, {-0.45f, -0.45f, 0}), (std::set<uint32_t>{22}));
+    EXPECT_EQ(tiles({-3, -3, 0}, {3, 3, 0}).size(), 100u);
+    EXPECT_TRUE(tiles({1.2f, 0, 0}, {2, 1, 0}).empty());
+    EXPECT_TRUE(tiles({1, 0, 0}, {-1, 1, 0}).empty());
+    camera.worldToClip[3][3] = -1.f; // behind
+    EXPECT_EQ(tiles({0, 0, 0}, {0.1f, 0.1f, 0}).size(), 100u);
+}
