@@ -105,7 +105,7 @@ struct Bins {
 };
 
 struct Split {
-    float cost = std::numeric_limits<float>::infinity(); ///< sum of half area times count
+    float cost = std::numeric_limits<float>::infinity(); ///< sum of half area times blocks
     int axis = -1;
     int bin = 0; ///< first bin of the right side
 };
@@ -167,7 +167,10 @@ private:
         });
     }
 
-    static Split bestSplit(const Bins& bins, const BinMap& map) {
+    /// Tests that `count` primitives cost.
+    float blocks(size_t count) const { return float((count + _options.block - 1) / _options.block); }
+
+    Split bestSplit(const Bins& bins, const BinMap& map) const {
         Split best;
         for (int a = 0; a < 3; ++a) {
             if (!map.usable(a)) continue;
@@ -176,14 +179,14 @@ private:
             for (int b = BIN_COUNT - 1; b > 0; --b) {
                 sum.box.add(bins.axis[a][b].box);
                 sum.count += bins.axis[a][b].count;
-                right[b] = sum.count ? sum.box.halfArea() * float(sum.count) : -1.0f;
+                right[b] = sum.count ? sum.box.halfArea() * blocks(sum.count) : -1.0f;
             }
             sum = Bin{};
             for (int b = 1; b < BIN_COUNT; ++b) {
                 sum.box.add(bins.axis[a][b - 1].box);
                 sum.count += bins.axis[a][b - 1].count;
                 if (!sum.count || right[b] < 0.0f) continue;
-                const float cost = sum.box.halfArea() * float(sum.count) + right[b];
+                const float cost = sum.box.halfArea() * blocks(sum.count) + right[b];
                 if (cost < best.cost) best = {cost, a, b};
             }
         }
@@ -210,7 +213,7 @@ private:
         const Split split = bestSplit(fillBins(first, last, map), map);
         const bool leafAllowed = count <= _options.maxLeaf;
         const float area = e.boxes.halfArea();
-        if (leafAllowed && !(area * _options.nodeCost + split.cost < area * float(count))) return last;
+        if (leafAllowed && !(area * _options.nodeCost + split.cost < area * blocks(count))) return last;
         if (split.axis < 0) return halve(first, last, e.centres);
         const auto middle = std::partition(_items.begin() + first, _items.begin() + last, [&](const Item& i) {
             return map.bin(i.centre(), split.axis) < split.bin;
@@ -287,7 +290,7 @@ private:
 float childCost(uint32_t child, const Bounds& box, const BvhOptions& options) {
     if (!(child & gpu::BVH_LEAF)) return options.nodeCost * box.halfArea();
     const uint32_t count = child >> gpu::BVH_COUNT_SHIFT & gpu::BVH_COUNT_MASK;
-    return box.halfArea() * float(count);
+    return box.halfArea() * float((count + options.block - 1) / options.block);
 }
 
 float treeCost(const Bvh& bvh, const BvhOptions& options) {

@@ -15,8 +15,10 @@ struct BvhOptions {
     uint32_t maxLeaf = 4;
     /// Inner nodes from the root to a leaf.
     uint32_t maxDepth = gpu::BVH_MAX_TRIANGLE_DEPTH;
-    /// Visiting a node, in units of one primitive test.
+    /// Visiting a node, in units of one block's test.
     float nodeCost = 1.0f;
+    /// Primitives that are tested together, for the price of one.
+    uint32_t block = 1;
 };
 
 /// A tree over primitives 0..n-1. nodes[0] is the root, children come after their parents.

@@ -12,7 +12,7 @@
 
 namespace hipr {
 
-enum class TraversalKind { Embree, Bvh, RayQuery };
+enum class TraversalKind { Host, Embree, Bvh, RayQuery };
 
 /// A geometry handed to a traversal. Host pointers stay valid until the geometry is replaced or removed.
 struct GeometryView {

@@ -101,6 +101,7 @@ void RendererImpl::finish() {
 void RendererImpl::selectTraversal() {
     if (_settings.traversal == _traversalInUse) return;
     TraversalKind kind = defaultTraversal(*_device);
+    if (_settings.traversal == "host") kind = TraversalKind::Host;
     if (_settings.traversal == "embree") kind = TraversalKind::Embree;
     if (_settings.traversal == "bvh") kind = TraversalKind::Bvh;
     if (_settings.traversal == "rayquery") kind = TraversalKind::RayQuery;

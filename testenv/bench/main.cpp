@@ -28,11 +28,11 @@ Report emptyReport(int repetitions) {
 }
 
 int trace(const std::vector<uint32_t>& sizes, int repetitions, const std::string& only,
-          const std::string& jsonFile) {
+          const std::vector<std::string>& traversals, const std::string& jsonFile) {
     Report report = emptyReport(repetitions);
     const auto wanted = [&](const char* part) { return only.empty() || only == part; };
     for (const uint32_t triangles : sizes) {
-        if (wanted("rays")) report.traversals.push_back(benchTraversals(triangles, repetitions));
+        if (wanted("rays")) report.traversals.push_back(benchTraversals(triangles, repetitions, traversals));
         if (wanted("frames"))
             for (FrameRow& row : benchFrames(triangles, repetitions))
                 report.frames.push_back(std::move(row));
@@ -66,6 +66,11 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(1, 1000));
     traceCommand->add_option("--only", only, "One part: rays, frames or start")
         ->check(CLI::IsMember({"rays", "frames", "start"}));
+    std::vector<std::string> traversals;
+    traceCommand
+        ->add_option("--traversals", traversals,
+                     "Those to time rays with: host, embree, bvh, rayquery; all if absent")
+        ->delimiter(',');
     traceCommand->add_option("--json", jsonFile, "Also write the results here");
     uint32_t triangles = 20000;
     CLI::App* firstPixelCommand = app.add_subcommand(
@@ -73,7 +78,8 @@ int main(int argc, char** argv) {
     firstPixelCommand->add_option("triangles", triangles, "About how many triangles the scene has");
     CLI11_PARSE(app, argc, argv);
     try {
-        return traceCommand->parsed() ? trace(sizes, repetitions, only, jsonFile) : firstPixel(triangles);
+        return traceCommand->parsed() ? trace(sizes, repetitions, only, traversals, jsonFile)
+                                      : firstPixel(triangles);
     } catch (const std::exception& e) {
         std::cerr << "hipr-bench: " << e.what() << "\n";
         return 1;

@@ -1,5 +1,6 @@
 #include "testenv/bench/traversal_bench.h"
 
+#include <algorithm>
 #include <iostream>
 
 #include "renderer/accel/traversal.h"
@@ -18,6 +19,8 @@ void toStandardError(Severity, const std::string& subject, const std::string& te
 
 const char* nameOf(TraversalKind kind) {
     switch (kind) {
+    case TraversalKind::Host:
+        return "host";
     case TraversalKind::Embree:
         return "embree";
     case TraversalKind::Bvh:
@@ -172,7 +175,7 @@ TraversalRow compare(Contender& contender, Yardstick& yardstick, int repetitions
 
 } // namespace
 
-TraversalReport benchTraversals(uint32_t triangles, int repetitions) {
+TraversalReport benchTraversals(uint32_t triangles, int repetitions, const std::vector<std::string>& names) {
     std::string error;
     RendererOptions options;
     options.messages = toStandardError;
@@ -185,8 +188,11 @@ TraversalReport benchTraversals(uint32_t triangles, int repetitions) {
 
     TraversalReport report;
     report.builds.push_back({"bare embree", mesh->triangles.size(), embree.buildSeconds(), 0});
-    for (const TraversalKind kind : {TraversalKind::Embree, TraversalKind::Bvh, TraversalKind::RayQuery}) {
-        if (kind == TraversalKind::Embree && !device->hostMemory()) continue;
+    for (const TraversalKind kind :
+         {TraversalKind::Host, TraversalKind::Embree, TraversalKind::Bvh, TraversalKind::RayQuery}) {
+        if (!names.empty() && std::find(names.begin(), names.end(), nameOf(kind)) == names.end()) continue;
+        const bool onHost = kind == TraversalKind::Host || kind == TraversalKind::Embree;
+        if (onHost && !device->hostMemory()) continue;
         if (kind == TraversalKind::RayQuery && !device->info().rayQuery) continue;
         Contender contender(*device, kind, deviceMesh);
         report.builds.push_back(contender.build);

@@ -30,7 +30,8 @@ struct TraversalReport {
     std::vector<BuildRow> builds;
 };
 
-/// `triangles`: about how many the room gets. Traversals that the device cannot run are left out.
-TraversalReport benchTraversals(uint32_t triangles, int repetitions);
+/// `triangles`: about how many the room gets. `names`: the traversals to time, none: all. Those that the
+/// device cannot run are left out.
+TraversalReport benchTraversals(uint32_t triangles, int repetitions, const std::vector<std::string>& names);
 
 } // namespace hipr::bench

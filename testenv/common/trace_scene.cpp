@@ -24,7 +24,17 @@ Device& device() {
 }
 
 std::string kindName(TraversalKind kind) {
-    return kind == TraversalKind::Embree ? "Embree" : kind == TraversalKind::Bvh ? "Bvh" : "RayQuery";
+    switch (kind) {
+    case TraversalKind::Host:
+        return "Host";
+    case TraversalKind::Embree:
+        return "Embree";
+    case TraversalKind::Bvh:
+        return "Bvh";
+    case TraversalKind::RayQuery:
+        return "RayQuery";
+    }
+    return "";
 }
 
 TraceScene::TraceScene(TraversalKind kind, Device& device)

@@ -14,7 +14,7 @@ namespace hipr::test {
 /// One device for all tests of the program.
 Device& device();
 
-constexpr TraversalKind ALL_TRAVERSALS[] = {TraversalKind::Embree, TraversalKind::Bvh,
+constexpr TraversalKind ALL_TRAVERSALS[] = {TraversalKind::Host, TraversalKind::Embree, TraversalKind::Bvh,
                                             TraversalKind::RayQuery};
 std::string kindName(TraversalKind kind);
 

@@ -1,0 +1,141 @@
+#include "renderer/accel/host_traversal.h"
+
+#include <stdexcept>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "renderer/accel/denormals.h"
+#include "renderer/accel/instance_table.h"
+#include "renderer/accel/wide_walk.h"
+
+namespace hipr {
+namespace {
+
+constexpr uint32_t RAYS_PER_TASK = 256;
+
+/// A geometry slot and its tree.
+struct HostGeometry {
+    GeometryView view{};
+    WideTree tree;
+    bool changed = false;
+};
+
+class HostTraversal final : public Traversal {
+public:
+    void setGeometry(uint32_t slot, const GeometryView* view) override {
+        if (slot >= _geometries.size()) _geometries.resize(slot + 1);
+        _instancesChanged = true; // boxes of instances follow their geometry
+        std::unique_ptr<HostGeometry>& g = _geometries[slot];
+        if (!view) {
+            g.reset();
+            return;
+        }
+        if (!g) g = std::make_unique<HostGeometry>();
+        const bool same = view->sameTopology && (!g->changed || g->view.sameTopology);
+        g->view = *view;
+        g->view.sameTopology = same; // as what was built last, not as what was set last
+        g->changed = true;
+    }
+
+    void setInstances(const std::vector<gpu::InstanceRecord>& instances) override {
+        _records = instances;
+        _instancesChanged = true;
+    }
+
+    void commit() override {
+        const FlushDenormals flush;
+        std::vector<HostGeometry*> changed;
+        for (const auto& g : _geometries)
+            if (g && g->changed) changed.push_back(g.get());
+        tbb::parallel_for(size_t(0), changed.size(), [&](size_t i) {
+            const FlushDenormals flushThere;
+            HostGeometry& g = *changed[i];
+            g.changed = false;
+            if (!g.view.sameTopology || !g.tree.refit(g.view)) g.tree.build(g.view);
+        });
+        if (_instancesChanged) buildTop();
+        _instancesChanged = false;
+    }
+
+    bool onHost() const override { return true; }
+
+    uint64_t hostBytes() const override {
+        uint64_t bytes = _top.bytes();
+        for (const auto& g : _geometries)
+            if (g) bytes += g->tree.bytes();
+        return bytes;
+    }
+
+    void nearest(const TraceQueue& queue) override {
+        auto* hits = queue.results->mapped<gpu::Hit>();
+        forRays(queue, [&](uint32_t first, uint32_t count, const gpu::Ray* rays) {
+            _walk.nearest(_scene, queue.mask, rays, count, hits + first);
+        });
+    }
+
+    void occluded(const TraceQueue& queue) override {
+        auto* blocked = queue.results->mapped<uint32_t>();
+        forRays(queue, [&](uint32_t first, uint32_t count, const gpu::Ray* rays) {
+            _walk.occluded(_scene, queue.mask, rays, count, blocked + first);
+        });
+    }
+
+    void recordNearest(VkCommandBuffer, VkDeviceAddress, const TraceQueue&) override { recordingIsWrong(); }
+    void recordOccluded(VkCommandBuffer, VkDeviceAddress, const TraceQueue&) override { recordingIsWrong(); }
+
+private:
+    const HostGeometry* geometry(uint32_t slot) const {
+        return slot < _geometries.size() ? _geometries[slot].get() : nullptr;
+    }
+
+    void buildTop() {
+        _table = makeInstanceTable(_records, [this](uint32_t slot) {
+            const HostGeometry* g = geometry(slot);
+            return g ? g->tree.bounds() : Bounds{};
+        });
+        std::vector<Bounds> boxes;
+        std::vector<uint32_t> instances; // with a mask
+        for (uint32_t i = 0; i < _table.records.size(); ++i) {
+            gpu::BvhInstance& record = _table.records[i];
+            if (!record.mask) continue;
+            record.nodes = reinterpret_cast<uint64_t>(geometry(_records[i].geometry)->tree.units());
+            boxes.push_back({record.lo, record.hi});
+            instances.push_back(i);
+        }
+        _top.build(boxes, instances);
+        _scene = {_table.records.data(), uint32_t(_table.records.size()), _table.extent, _top.units()};
+    }
+
+    template <class Function> static void forRays(const TraceQueue& queue, const Function& function) {
+        const auto& header =
+            *reinterpret_cast<const gpu::QueueHeader*>(queue.header->mapped<char>() + queue.headerOffset);
+        const auto* rays = queue.rays->mapped<gpu::Ray>();
+        tbb::parallel_for(tbb::blocked_range<uint32_t>(0, header.count, RAYS_PER_TASK),
+                          [&](const auto& range) {
+                              const FlushDenormals flush;
+                              function(range.begin(), range.end() - range.begin(), rays + range.begin());
+                          });
+    }
+
+    [[noreturn]] static void recordingIsWrong() {
+        throw std::logic_error(
+            "the host traces between submissions; it cannot be recorded into a command buffer");
+    }
+
+    const WideWalk& _walk = *wideWalks().front();
+    std::vector<std::unique_ptr<HostGeometry>> _geometries; ///< by slot; null: free
+    std::vector<gpu::InstanceRecord> _records;
+    InstanceTable _table;
+    WideTree _top;
+    WideScene _scene{};
+    bool _instancesChanged = true;
+};
+
+} // namespace
+
+std::unique_ptr<Traversal> createHostTraversal() {
+    return std::make_unique<HostTraversal>();
+}
+
+} // namespace hipr
