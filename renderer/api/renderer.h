@@ -62,6 +62,7 @@ struct Progress {
     double scheduleSeconds = 0;      ///< spent on finding and ordering them
     double firstRevealSeconds = 0;   ///< from the edit to its first refreshed tiles; 0: not yet
     bool converged = false;     ///< no more will come: all samples are done, or there is nothing that can be rendered
+    bool failed = false;        ///< the device or the memory gave out, a message said so, and nothing is rendered any more
 };
 
 class Renderer {

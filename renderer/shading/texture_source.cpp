@@ -29,7 +29,7 @@ void decode(Job& job, const AssetReader& assets, const ColorManager& color) {
         else if (!job.source->udim())
             job.error = "cannot be read";
     } catch (const std::exception& e) { // the host's reader
-        job.error = e.what();
+        job.error = reasonOf(e);
     }
 }
 

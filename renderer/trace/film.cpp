@@ -27,28 +27,44 @@ uint32_t missWord(AovKind kind) {
 } // namespace
 
 void FilmBuffers::setDesc(const FilmDesc& desc) {
-    _sums = {}, _firstSamples = {}, _visibility = {}, _targets = {};
-    _firstHits.clear();
+    clear();
     _desc = desc;
     const bool fits =
         std::max(desc.width, desc.height) <= MaxSide && uint64_t(desc.width) * desc.height <= MaxPixels;
-    _width = fits ? desc.width : 0;
-    _height = fits ? desc.height : 0;
     if (!fits)
-        _device.messages()(Severity::Error, "",
-                           "a picture of " + std::to_string(desc.width) + " x " +
-                               std::to_string(desc.height) + " is too large; the limit is " +
-                               std::to_string(MaxSide) + " pixels a side");
-    if (pixels() == 0) return;
+        return refuse("the limits are " + std::to_string(MaxSide) + " pixels a side and " +
+                      std::to_string(MaxPixels) + " in all");
+    _width = desc.width;
+    _height = desc.height;
+    try {
+        if (pixels() > 0) allocate();
+    } catch (const std::bad_alloc& e) {
+        clear();
+        refuse(reasonOf(e));
+    }
+}
 
+void FilmBuffers::clear() {
+    _width = _height = 0;
+    _sums = {}, _firstSamples = {}, _visibility = {}, _targets = {};
+    _firstHits.clear();
+}
+
+/// A picture that cannot be had leaves a film without pixels; the host may ask for another.
+void FilmBuffers::refuse(const std::string& reason) {
+    _device.messages()(Severity::Error, "",
+                       "a picture of " + std::to_string(_desc.width) + " x " + std::to_string(_desc.height) +
+                           " is too large (" + reason + ")");
+}
+
+void FilmBuffers::allocate() {
     _sums = filled(pixels() * sizeof(gpu::FilmPixel), 0);
     _firstSamples = _device.createBuffer(pixels() * sizeof(glm::vec3), MemoryUse::Device, "Film");
     std::vector<gpu::AovTarget> targets;
     for (const AovRequest& request : _desc.aovs) {
         if (isSum(request.kind) || isTileAov(request.kind)) continue;
-        const std::vector<uint32_t> miss(pixels() * aovFormat(request.kind).components,
-                                         missWord(request.kind));
-        _firstHits.push_back({request, _device.createFrom(miss.data(), miss.size(), "Film")});
+        const uint64_t bytes = pixels() * aovFormat(request.kind).components * sizeof(uint32_t);
+        _firstHits.push_back({request, filled(bytes, missWord(request.kind))});
         const bool primvar = request.kind == AovKind::Primvar;
         targets.push_back({_firstHits.back().values.address(), uint32_t(request.kind),
                            primvar ? _names.intern(request.primvar) : gpu::NO_INDEX});

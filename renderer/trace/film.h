@@ -18,7 +18,7 @@ public:
     FilmBuffers(Device& device, NameTable& names) : _device(device), _names(names) {}
 
     /// Allocates and clears; every AOV then holds what it shows where nothing is seen. A film without pixels
-    /// is fine; one too large for the renderer gives an error message and counts as such.
+    /// is fine; one too large for the renderer or the memory gives an error message and counts as such.
     void setDesc(const FilmDesc& desc);
     const FilmDesc& desc() const { return _desc; }
     /// The size that is rendered.
@@ -39,6 +39,9 @@ private:
         AovRequest request;
         Buffer values;
     };
+    void clear();
+    void allocate();
+    void refuse(const std::string& reason);
     Buffer filled(uint64_t bytes, uint32_t word);
     void readSums(AovKind kind, uint32_t* dst) const;
 

@@ -78,24 +78,26 @@ template <class F> bool RendererImpl::guarded(F&& work) {
     if (_failed) return false;
     try {
         return work();
-    } catch (const std::bad_alloc&) {
-        fail("out of memory; rendering stops");
     } catch (const std::exception& e) {
-        fail(std::string(e.what()) + "; rendering stops");
+        fail(reasonOf(e));
     }
     return false;
 }
 
-void RendererImpl::fail(const std::string& reason) {
+void RendererImpl::fail(const char* reason) {
     _failed = true;
-    _device->messages()(Severity::Error, "", reason);
     finish();
+    try {
+        _device->messages()(Severity::Error, "", std::string(reason) + "; rendering stops");
+    } catch (const std::bad_alloc&) { // not even for a message; Progress tells it as well
+    }
 }
 
 /// Hosts that wait for convergence must not wait for what will never come.
 void RendererImpl::finish() {
     std::lock_guard<std::mutex> lock(_progressMutex);
     _progress.converged = true;
+    _progress.failed = _failed;
 }
 
 void RendererImpl::selectTraversal() {
@@ -107,6 +109,8 @@ void RendererImpl::selectTraversal() {
     if (_settings.traversal == "rayquery") kind = TraversalKind::RayQuery;
     try {
         _scene.setTraversal(createTraversal(kind, *_device));
+    } catch (const DeviceLost&) {
+        throw;
     } catch (const std::runtime_error& e) {
         if (_settings.traversal == "auto") throw;
         _device->messages()(Severity::Error, "",
@@ -342,7 +346,7 @@ std::unique_ptr<RendererImpl> createRenderer(const RendererOptions& options,
         if (!device) return nullptr;
         return std::make_unique<RendererImpl>(std::move(device), complete, internals);
     } catch (const std::exception& e) {
-        if (error) *error = e.what();
+        if (error) *error = reasonOf(e);
         return nullptr;
     }
 }

@@ -46,7 +46,7 @@ private:
     enum class Cause { Picture, Edit, Camera, Everything };
 
     template <class F> bool guarded(F&& work);
-    void fail(const std::string& reason);
+    void fail(const char* reason);
     void finish();
     void restart(Cause cause);
     void startSurvey(const std::vector<WorldBox>& regions);

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "renderer/vulkan/instance.h"
+#include "renderer/vulkan/result.h"
 
 namespace hipr {
 
@@ -46,9 +47,10 @@ bool hasExtension(const std::vector<VkExtensionProperties>& extensions, const ch
 
 std::vector<VkExtensionProperties> extensionsOf(VkPhysicalDevice physical) {
     uint32_t count = 0;
-    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
+    const char* const call = "vkEnumerateDeviceExtensionProperties";
+    check(vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr), call);
     std::vector<VkExtensionProperties> extensions(count);
-    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
+    check(vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data()), call);
     extensions.resize(count);
     return extensions;
 }
@@ -196,9 +198,9 @@ void Features::link(bool withRayQuery) {
 
 std::vector<Adapter> listAdapters(VkInstance instance) {
     uint32_t count = 0;
-    vkEnumeratePhysicalDevices(instance, &count, nullptr);
+    check(vkEnumeratePhysicalDevices(instance, &count, nullptr), "vkEnumeratePhysicalDevices");
     std::vector<VkPhysicalDevice> physical(count);
-    vkEnumeratePhysicalDevices(instance, &count, physical.data());
+    check(vkEnumeratePhysicalDevices(instance, &count, physical.data()), "vkEnumeratePhysicalDevices");
     std::vector<Adapter> adapters;
     for (uint32_t i = 0; i < count; ++i)
         adapters.push_back(describe(physical[i], i));
@@ -253,13 +255,16 @@ std::vector<const char*> extensionsToEnable(const Adapter& adapter) {
 }
 
 std::vector<DeviceInfo> devices() {
-    std::string error;
-    const auto instance = Instance::create(
-        false, [](Severity, const std::string&, const std::string&) {}, &error);
     std::vector<DeviceInfo> infos;
-    if (!instance) return infos;
-    for (const Adapter& a : listAdapters(instance->handle()))
-        infos.push_back(a.info);
+    try {
+        std::string error;
+        const auto instance = Instance::create(
+            false, [](Severity, const std::string&, const std::string&) {}, &error);
+        if (!instance) return infos;
+        for (const Adapter& a : listAdapters(instance->handle()))
+            infos.push_back(a.info);
+    } catch (const std::exception&) { // hosts ask while they load plugins: a broken driver is no device
+    }
     return infos;
 }
 

@@ -19,11 +19,15 @@ bool sharesThroughDisk(const Device& device) {
 }
 
 std::unique_ptr<Device> scratchDevice(const Device& device) {
-    RendererOptions options;
-    options.device = std::to_string(device.info().index);
-    options.messages = [](Severity, const std::string&, const std::string&) {}; // the main device has said it
-    std::string error;
-    return Device::create(options, &error);
+    try {
+        RendererOptions options;
+        options.device = std::to_string(device.info().index);
+        options.messages = [](Severity, const std::string&, const std::string&) {}; // the main device said it
+        std::string error;
+        return Device::create(options, &error);
+    } catch (const std::exception&) {
+        return nullptr;
+    }
 }
 
 } // namespace
@@ -34,13 +38,17 @@ BackgroundKernels::BackgroundKernels(Device& device, std::vector<KernelSource> s
     for (size_t i = 0; i < sources.size(); ++i)
         _entries[i].source = sources[i];
     if (sources.empty()) return;
+    _threads.reserve(1 + MaxAssistants);
     _threads.emplace_back(&BackgroundKernels::buildInOrder, this);
     // Drivers of real devices compile in the calling thread; they can be assisted without a detour.
     if (device.info().cpu && !sharesThroughDisk(device)) return;
     const size_t cores = std::max(1u, std::thread::hardware_concurrency());
     const size_t assistants = std::min({cores - 1, sources.size() - 1, MaxAssistants});
-    for (size_t i = 0; i < assistants; ++i)
-        _threads.emplace_back(&BackgroundKernels::assist, this);
+    try {
+        for (size_t i = 0; i < assistants; ++i)
+            _threads.emplace_back(&BackgroundKernels::assist, this);
+    } catch (const std::exception&) { // the system gives no more threads: fewer will do
+    }
 }
 
 BackgroundKernels::~BackgroundKernels() {

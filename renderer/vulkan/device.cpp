@@ -5,13 +5,11 @@
 #include <cstring>
 #include <iostream>
 #include <mutex>
-#include <new>
 
 #include "renderer/vulkan/adapter.h"
 #include "renderer/vulkan/instance.h"
 #include "renderer/vulkan/memory.h"
 #include "renderer/vulkan/pipelinecache.h"
-#include "renderer/vulkan/result.h"
 #include "renderer/vulkan/structs.h"
 
 namespace hipr {
@@ -34,40 +32,6 @@ bool environmentSays(const char* variable) {
 
 } // namespace
 
-const char* resultName(VkResult result) {
-    switch (result) {
-    case VK_ERROR_OUT_OF_HOST_MEMORY:
-        return "VK_ERROR_OUT_OF_HOST_MEMORY";
-    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
-        return "VK_ERROR_OUT_OF_DEVICE_MEMORY";
-    case VK_ERROR_INITIALIZATION_FAILED:
-        return "VK_ERROR_INITIALIZATION_FAILED";
-    case VK_ERROR_DEVICE_LOST:
-        return "VK_ERROR_DEVICE_LOST";
-    case VK_ERROR_LAYER_NOT_PRESENT:
-        return "VK_ERROR_LAYER_NOT_PRESENT";
-    case VK_ERROR_EXTENSION_NOT_PRESENT:
-        return "VK_ERROR_EXTENSION_NOT_PRESENT";
-    case VK_ERROR_FEATURE_NOT_PRESENT:
-        return "VK_ERROR_FEATURE_NOT_PRESENT";
-    case VK_ERROR_INCOMPATIBLE_DRIVER:
-        return "VK_ERROR_INCOMPATIBLE_DRIVER";
-    case VK_ERROR_TOO_MANY_OBJECTS:
-        return "VK_ERROR_TOO_MANY_OBJECTS";
-    default:
-        return "an unexpected result";
-    }
-}
-
-void check(VkResult result, const char* what) {
-    if (result >= 0) return;
-    if (result == VK_ERROR_DEVICE_LOST) throw DeviceLost();
-    if (result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY)
-        throw std::bad_alloc();
-    throw std::runtime_error(std::string(what) + " failed: " + resultName(result) + " (" +
-                             std::to_string(result) + ")");
-}
-
 struct Device::Impl {
     MessageSink messages;
     std::unique_ptr<Instance> instance;
@@ -82,13 +46,20 @@ struct Device::Impl {
     VkCommandPool commandPool = VK_NULL_HANDLE;
     VkCommandBuffer commands = VK_NULL_HANDLE;
     VkFence fence = VK_NULL_HANDLE;
+    bool lost = false;
 
-    std::mutex stagingMutex;
-    Buffer uploadStaging, readbackStaging;
+    struct Staging {
+        MemoryUse use;
+        std::mutex mutex;
+        Buffer buffer;
+    };
+    Staging uploads{MemoryUse::Upload, {}, {}}, readbacks{MemoryUse::Readback, {}, {}};
 
     void createDevice();
     void createCommands();
     void chooseMemoryTypes();
+    void create(const RendererOptions& options, std::string* error);
+    void submit();
     ~Impl();
 };
 
@@ -155,33 +126,38 @@ Device::~Device() {
     if (!_impl->device) return;
     vkDeviceWaitIdle(_impl->device);
     // Buffers free themselves through this object, so they go while it is whole.
-    _impl->uploadStaging = Buffer();
-    _impl->readbackStaging = Buffer();
+    _impl->uploads.buffer = Buffer();
+    _impl->readbacks.buffer = Buffer();
+}
+
+/// Leaves `pool` empty, with the reason in `error`, when there is no usable device.
+void Device::Impl::create(const RendererOptions& options, std::string* error) {
+    messages = options.messages ? options.messages : MessageSink(&toStandardError);
+    instance = Instance::create(options.validation || environmentSays("HIPR_VALIDATION"), messages, error);
+    if (!instance) return;
+    const std::vector<Adapter> adapters = listAdapters(instance->handle());
+    const Adapter* chosen = chooseAdapter(adapters, options.device, error);
+    if (!chosen) return;
+    adapter = *chosen;
+    if (environmentSays("HIPR_NO_HOST_MEMORY")) adapter.hostMemory = false;
+    createDevice();
+    createCommands();
+    chooseMemoryTypes();
+    cache = std::make_unique<PipelineCache>(adapter.physical, device);
+    pool = std::make_unique<MemoryPool>(adapter.physical, device, adapter.memoryBudget, adapter.info.cpu);
 }
 
 std::unique_ptr<Device> Device::create(const RendererOptions& options, std::string* error) {
     std::unique_ptr<Device> self(new Device);
     Impl& d = *self->_impl;
-    d.messages = options.messages ? options.messages : MessageSink(&toStandardError);
-    d.instance =
-        Instance::create(options.validation || environmentSays("HIPR_VALIDATION"), d.messages, error);
-    if (!d.instance) return nullptr;
-    const std::vector<Adapter> adapters = listAdapters(d.instance->handle());
-    const Adapter* adapter = chooseAdapter(adapters, options.device, error);
-    if (!adapter) return nullptr;
-    d.adapter = *adapter;
-    if (environmentSays("HIPR_NO_HOST_MEMORY")) d.adapter.hostMemory = false;
     try {
-        d.createDevice();
-        d.createCommands();
-        d.chooseMemoryTypes();
-        d.pool = std::make_unique<MemoryPool>(d.adapter.physical, d.device, d.adapter.memoryBudget,
-                                              d.adapter.info.cpu);
-        d.cache = std::make_unique<PipelineCache>(d.adapter.physical, d.device);
+        d.create(options, error);
     } catch (const std::exception& e) {
-        *error = "the Vulkan device '" + d.adapter.info.name + "' cannot be used: " + e.what();
-        return nullptr;
+        const std::string& name = d.adapter.info.name;
+        *error = (name.empty() ? "Vulkan" : "the Vulkan device '" + name + "'") +
+                 " cannot be used: " + reasonOf(e);
     }
+    if (!d.pool) return nullptr;
     return self;
 }
 
@@ -239,13 +215,10 @@ Buffer Device::createBuffer(uint64_t bytes, MemoryUse use, const char* kind) {
         need.alignment = std::max<VkDeviceSize>(need.alignment, 256);
         range = d.pool->allocate(need, d.memoryTypesOf[int(use)], kind);
     }
-    if (!range) {
-        d.messages(Severity::Error, kind,
-                   "out of device memory: " + std::to_string(buffer._bytes) + " bytes wanted, " +
-                       std::to_string(reservedBytes()) + " of " + std::to_string(d.adapter.info.memoryBytes) +
-                       " bytes in use");
-        throw std::bad_alloc(); // the destructor of `buffer` cleans up
-    }
+    if (!range) // the destructor of `buffer` cleans up
+        throw OutOfMemory("out of device memory: " + std::to_string(buffer._bytes) + " bytes wanted (" +
+                          kind + "), " + std::to_string(reservedBytes()) + " of " +
+                          std::to_string(d.adapter.info.memoryBytes) + " bytes in use");
     buffer._range = *range;
     if (use != MemoryUse::Device || d.adapter.hostMemory) buffer._mapped = range->mapped;
     check(vkBindBufferMemory(d.device, buffer._buffer, range->memory, range->offset), "vkBindBufferMemory");
@@ -273,43 +246,63 @@ void Buffer::swap(Buffer& o) noexcept {
     std::swap(_range, o._range);
 }
 
+/// Calls transfer(staging, done, part) for one part after the other of `bytes`.
+template <class Transfer> void Device::throughStaging(bool up, uint64_t bytes, Transfer&& transfer) {
+    Impl::Staging& staging = up ? _impl->uploads : _impl->readbacks;
+    std::lock_guard lock(staging.mutex);
+    if (!staging.buffer) staging.buffer = createBuffer(StagingBytes, staging.use, "staging");
+    for (uint64_t done = 0, part; done < bytes; done += part) {
+        part = std::min(bytes - done, StagingBytes);
+        transfer(staging.buffer, done, part);
+    }
+}
+
+void Device::copy(const Buffer& from, const Buffer& to, const VkBufferCopy& region) {
+    run([&](VkCommandBuffer cmd) { vkCmdCopyBuffer(cmd, from.handle(), to.handle(), 1, &region); });
+}
+
 void Device::upload(const Buffer& dst, const void* data, uint64_t bytes, uint64_t offset) {
+    if (bytes == 0) return; // memcpy wants pointers even then
     if (dst.mapped()) {
         std::memcpy(dst.mapped<char>() + offset, data, bytes);
         return;
     }
-    std::lock_guard lock(_impl->stagingMutex);
-    Buffer& staging = _impl->uploadStaging;
-    if (!staging) staging = createBuffer(StagingBytes, MemoryUse::Upload, "staging");
-    for (uint64_t done = 0; done < bytes;) {
-        const uint64_t part = std::min(bytes - done, StagingBytes);
+    throughStaging(true, bytes, [&](const Buffer& staging, uint64_t done, uint64_t part) {
         std::memcpy(staging.mapped(), static_cast<const char*>(data) + done, part);
-        const VkBufferCopy region{0, offset + done, part};
-        run([&](VkCommandBuffer cmd) { vkCmdCopyBuffer(cmd, staging.handle(), dst.handle(), 1, &region); });
-        done += part;
-    }
+        copy(staging, dst, {0, offset + done, part});
+    });
 }
 
 void Device::download(const Buffer& src, void* data, uint64_t bytes, uint64_t offset) {
+    if (bytes == 0) return;
     if (src.mapped()) {
         std::memcpy(data, src.mapped<char>() + offset, bytes);
         return;
     }
-    std::lock_guard lock(_impl->stagingMutex);
-    Buffer& staging = _impl->readbackStaging;
-    if (!staging) staging = createBuffer(StagingBytes, MemoryUse::Readback, "staging");
-    for (uint64_t done = 0; done < bytes;) {
-        const uint64_t part = std::min(bytes - done, StagingBytes);
-        const VkBufferCopy region{offset + done, 0, part};
-        run([&](VkCommandBuffer cmd) { vkCmdCopyBuffer(cmd, src.handle(), staging.handle(), 1, &region); });
+    throughStaging(false, bytes, [&](const Buffer& staging, uint64_t done, uint64_t part) {
+        copy(src, staging, {offset + done, 0, part});
         std::memcpy(static_cast<char*>(data) + done, staging.mapped(), part);
-        done += part;
-    }
+    });
+}
+
+void Device::Impl::submit() {
+    auto submit = vkStruct<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
+    submit.commandBufferCount = 1;
+    submit.pCommandBuffers = &commands;
+    check(vkQueueSubmit(queue, 1, &submit, fence), "vkQueueSubmit");
+    if (vkWaitForFences(device, 1, &fence, VK_TRUE, UINT64_MAX) == VK_SUCCESS &&
+        vkResetFences(device, 1, &fence) == VK_SUCCESS)
+        return;
+    // The work may go on, and the caller is about to free what it reads.
+    vkDeviceWaitIdle(device);
+    lost = true;
+    throw DeviceLost();
 }
 
 void Device::run(const std::function<void(VkCommandBuffer)>& record) {
     Impl& d = *_impl;
     std::lock_guard lock(d.submitMutex);
+    if (d.lost) throw DeviceLost();
     auto begin = vkStruct<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     check(vkBeginCommandBuffer(d.commands, &begin), "vkBeginCommandBuffer");
@@ -325,12 +318,7 @@ void Device::run(const std::function<void(VkCommandBuffer)>& record) {
     vkCmdPipelineBarrier(d.commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
                          &toHost, 0, nullptr, 0, nullptr);
     check(vkEndCommandBuffer(d.commands), "vkEndCommandBuffer");
-    auto submit = vkStruct<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
-    submit.commandBufferCount = 1;
-    submit.pCommandBuffers = &d.commands;
-    check(vkQueueSubmit(d.queue, 1, &submit, d.fence), "vkQueueSubmit");
-    check(vkWaitForFences(d.device, 1, &d.fence, VK_TRUE, UINT64_MAX), "vkWaitForFences");
-    check(vkResetFences(d.device, 1, &d.fence), "vkResetFences");
+    d.submit();
 }
 
 void computeBarrier(VkCommandBuffer cmd) {

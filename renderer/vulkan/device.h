@@ -4,11 +4,11 @@
 
 #include <functional>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
 #include "renderer/api/renderer.h"
 #include "renderer/vulkan/buffer.h"
+#include "renderer/vulkan/result.h"
 
 namespace hipr {
 
@@ -35,8 +35,7 @@ public:
 
     /// Allocates; contents are undefined; addresses are multiples of 256. `kind` names the row of
     /// MemoryReport the bytes count under and must be a literal. Sizes of 0 are rounded up to 16. Throws
-    /// std::bad_alloc when device memory is exhausted, after an error message that says what was wanted; the
-    /// device stays usable.
+    /// OutOfMemory, which says what was wanted, when device memory is exhausted; the device stays usable.
     Buffer createBuffer(uint64_t bytes, MemoryUse use, const char* kind);
 
     /// Copies host data into a buffer; direct when mapped, else through a staging buffer (blocking).
@@ -51,7 +50,8 @@ public:
     }
 
     /// Records with `record`, submits and waits. What kernels and transfers wrote is visible to the host
-    /// afterwards. Throws DeviceLost. `record` must not use the device's blocking calls.
+    /// afterwards. Throws OutOfMemory when nothing could be submitted, and DeviceLost, from then on always,
+    /// when what was submitted did not end well. `record` must not use the device's blocking calls.
     void run(const std::function<void(VkCommandBuffer)>& record);
 
     /// Bytes of living buffers by kind, largest first.
@@ -71,13 +71,10 @@ private:
     friend class Buffer;
     Device();
     void free(Buffer& buffer);
+    template <class Transfer> void throughStaging(bool up, uint64_t bytes, Transfer&& transfer);
+    void copy(const Buffer& from, const Buffer& to, const VkBufferCopy& region);
     struct Impl;
     std::unique_ptr<Impl> _impl;
-};
-
-/// Thrown when the device is lost; the renderer reports it once and stops.
-struct DeviceLost : std::runtime_error {
-    DeviceLost() : std::runtime_error("the Vulkan device was lost") {}
 };
 
 /// A global memory barrier between compute dispatches, transfers and indirect reads of one command buffer.

@@ -1,6 +1,7 @@
 #include "renderer/vulkan/kernel.h"
 
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "renderer/vulkan/device.h"
@@ -28,8 +29,9 @@ struct ShaderModule {
 } // namespace
 
 Kernel::Kernel(Device& device, const uint32_t* spirv, size_t spirvBytes, uint32_t pushBytes, const char* name,
-               bool tlas)
-    : _device(&device), _pushBytes(pushBytes) {
+               bool tlas) {
+    _own.device = &device;
+    _own.pushBytes = pushBytes;
     try {
         if (tlas) createDescriptors();
         createPipeline(spirv, spirvBytes, name);
@@ -40,7 +42,7 @@ Kernel::Kernel(Device& device, const uint32_t* spirv, size_t spirvBytes, uint32_
 }
 
 void Kernel::createDescriptors() {
-    if (!_device->info().rayQuery) throw std::runtime_error("the device has no ray query");
+    if (!_own.device->info().rayQuery) throw std::runtime_error("the device has no ray query");
     VkDescriptorSetLayoutBinding binding{};
     binding.descriptorType = VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR;
     binding.descriptorCount = 1;
@@ -55,63 +57,63 @@ void Kernel::createDescriptors() {
     layout.pNext = &flags;
     layout.bindingCount = 1;
     layout.pBindings = &binding;
-    check(vkCreateDescriptorSetLayout(_device->handle(), &layout, nullptr, &_setLayout),
+    check(vkCreateDescriptorSetLayout(_own.device->handle(), &layout, nullptr, &_own.setLayout),
           "vkCreateDescriptorSetLayout");
 
     const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, 1};
     auto pool = vkStruct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
     pool.maxSets = pool.poolSizeCount = 1;
     pool.pPoolSizes = &size;
-    check(vkCreateDescriptorPool(_device->handle(), &pool, nullptr, &_pool), "vkCreateDescriptorPool");
+    check(vkCreateDescriptorPool(_own.device->handle(), &pool, nullptr, &_own.pool),
+          "vkCreateDescriptorPool");
 
     auto allocate = vkStruct<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
-    allocate.descriptorPool = _pool;
+    allocate.descriptorPool = _own.pool;
     allocate.descriptorSetCount = 1;
-    allocate.pSetLayouts = &_setLayout;
-    check(vkAllocateDescriptorSets(_device->handle(), &allocate, &_set), "vkAllocateDescriptorSets");
+    allocate.pSetLayouts = &_own.setLayout;
+    check(vkAllocateDescriptorSets(_own.device->handle(), &allocate, &_own.set), "vkAllocateDescriptorSets");
 }
 
 void Kernel::createPipeline(const uint32_t* spirv, size_t spirvBytes, const char* name) {
     VkPhysicalDeviceProperties properties;
-    vkGetPhysicalDeviceProperties(_device->physical(), &properties);
-    if (_pushBytes > properties.limits.maxPushConstantsSize)
-        throw std::runtime_error(std::string("kernel ") + name + " has " + std::to_string(_pushBytes) +
+    vkGetPhysicalDeviceProperties(_own.device->physical(), &properties);
+    if (_own.pushBytes > properties.limits.maxPushConstantsSize)
+        throw std::runtime_error(std::string("kernel ") + name + " has " + std::to_string(_own.pushBytes) +
                                  " bytes of push constants, the device takes " +
                                  std::to_string(properties.limits.maxPushConstantsSize));
-    const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, _pushBytes};
+    const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, _own.pushBytes};
     auto layout = vkStruct<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
-    layout.setLayoutCount = _setLayout ? 1 : 0;
-    layout.pSetLayouts = &_setLayout;
-    layout.pushConstantRangeCount = _pushBytes ? 1 : 0;
+    layout.setLayoutCount = _own.setLayout ? 1 : 0;
+    layout.pSetLayouts = &_own.setLayout;
+    layout.pushConstantRangeCount = _own.pushBytes ? 1 : 0;
     layout.pPushConstantRanges = &push;
-    check(vkCreatePipelineLayout(_device->handle(), &layout, nullptr, &_layout), name);
+    check(vkCreatePipelineLayout(_own.device->handle(), &layout, nullptr, &_own.layout), name);
 
-    const ShaderModule shader(_device->handle(), spirv, spirvBytes);
+    const ShaderModule shader(_own.device->handle(), spirv, spirvBytes);
     auto info = vkStruct<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
     info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
     info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
     info.stage.module = shader.module;
     info.stage.pName = "main";
-    info.layout = _layout;
-    check(
-        vkCreateComputePipelines(_device->handle(), _device->pipelineCache(), 1, &info, nullptr, &_pipeline),
-        name);
+    info.layout = _own.layout;
+    check(vkCreateComputePipelines(_own.device->handle(), _own.device->pipelineCache(), 1, &info, nullptr,
+                                   &_own.pipeline),
+          name);
 }
 
 void Kernel::destroy() {
-    if (!_device) return;
-    vkDestroyPipeline(_device->handle(), _pipeline, nullptr);
-    vkDestroyPipelineLayout(_device->handle(), _layout, nullptr);
-    vkDestroyDescriptorPool(_device->handle(), _pool, nullptr);
-    vkDestroyDescriptorSetLayout(_device->handle(), _setLayout, nullptr);
+    if (!_own.device) return;
+    vkDestroyPipeline(_own.device->handle(), _own.pipeline, nullptr);
+    vkDestroyPipelineLayout(_own.device->handle(), _own.layout, nullptr);
+    vkDestroyDescriptorPool(_own.device->handle(), _own.pool, nullptr);
+    vkDestroyDescriptorSetLayout(_own.device->handle(), _own.setLayout, nullptr);
 }
 
-Kernel::Kernel(Kernel&& o) noexcept {
-    swap(o);
-}
+Kernel::Kernel(Kernel&& o) noexcept : _own(std::exchange(o._own, {})) {}
 
 Kernel& Kernel::operator=(Kernel&& o) noexcept {
-    Kernel(std::move(o)).swap(*this);
+    Kernel old(std::move(o));
+    std::swap(_own, old._own);
     return *this;
 }
 
@@ -119,20 +121,13 @@ Kernel::~Kernel() {
     destroy();
 }
 
-void Kernel::swap(Kernel& o) noexcept {
-    std::swap(_device, o._device);
-    std::swap(_layout, o._layout);
-    std::swap(_pipeline, o._pipeline);
-    std::swap(_setLayout, o._setLayout);
-    std::swap(_pool, o._pool);
-    std::swap(_set, o._set);
-    std::swap(_pushBytes, o._pushBytes);
-}
-
 void Kernel::bind(VkCommandBuffer cmd, const void* push) const {
-    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, _pipeline);
-    if (_set) vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, _layout, 0, 1, &_set, 0, nullptr);
-    if (_pushBytes) vkCmdPushConstants(cmd, _layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, _pushBytes, push);
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, _own.pipeline);
+    if (_own.set)
+        vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, _own.layout, 0, 1, &_own.set, 0,
+                                nullptr);
+    if (_own.pushBytes)
+        vkCmdPushConstants(cmd, _own.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, _own.pushBytes, push);
 }
 
 void Kernel::dispatch(VkCommandBuffer cmd, const void* push, uint32_t groupsX, uint32_t groupsY) const {
@@ -153,15 +148,15 @@ void Kernel::setTlas(VkAccelerationStructureKHR tlas) {
     structure.pAccelerationStructures = &tlas;
     auto write = vkStruct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
     write.pNext = &structure;
-    write.dstSet = _set;
+    write.dstSet = _own.set;
     write.descriptorCount = 1;
     write.descriptorType = VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR;
-    vkUpdateDescriptorSets(_device->handle(), 1, &write, 0, nullptr);
+    vkUpdateDescriptorSets(_own.device->handle(), 1, &write, 0, nullptr);
 }
 
 void Kernel::warm() const {
-    const std::vector<char> push(_pushBytes);
-    _device->run([&](VkCommandBuffer cmd) { dispatch(cmd, push.data(), 0); });
+    const std::vector<char> push(_own.pushBytes);
+    _own.device->run([&](VkCommandBuffer cmd) { dispatch(cmd, push.data(), 0); });
 }
 
 } // namespace hipr

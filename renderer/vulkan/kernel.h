@@ -37,21 +37,22 @@ public:
     /// an empty dispatch is enough to start it.
     void warm() const;
 
-    void swap(Kernel& o) noexcept;
-
 private:
     void createDescriptors();
     void createPipeline(const uint32_t* spirv, size_t spirvBytes, const char* name);
     void destroy();
     void bind(VkCommandBuffer cmd, const void* push) const;
 
-    Device* _device = nullptr;
-    VkPipelineLayout _layout = VK_NULL_HANDLE;
-    VkPipeline _pipeline = VK_NULL_HANDLE;
-    VkDescriptorSetLayout _setLayout = VK_NULL_HANDLE;
-    VkDescriptorPool _pool = VK_NULL_HANDLE;
-    VkDescriptorSet _set = VK_NULL_HANDLE;
-    uint32_t _pushBytes = 0;
+    struct Handles {
+        Device* device = nullptr;
+        VkPipelineLayout layout = VK_NULL_HANDLE;
+        VkPipeline pipeline = VK_NULL_HANDLE;
+        VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;
+        VkDescriptorPool pool = VK_NULL_HANDLE;
+        VkDescriptorSet set = VK_NULL_HANDLE;
+        uint32_t pushBytes = 0;
+    };
+    Handles _own;
 };
 
 } // namespace hipr

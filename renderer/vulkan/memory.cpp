@@ -129,6 +129,7 @@ std::optional<MemoryRange> MemoryPool::place(uint32_t type, const VkMemoryRequir
             if (chunk->type == type && !chunk->dedicated)
                 if (auto range = placeIn(*chunk)) return range;
     }
+    _chunks.reserve(_chunks.size() + 1); // a chunk without a place in the list would never be freed
     std::unique_ptr<Chunk> chunk = dedicated ? nullptr : createChunk(type, blockBytes);
     if (!chunk) { // when a whole block does not fit any more, the request alone may
         chunk = createChunk(type, need.size);

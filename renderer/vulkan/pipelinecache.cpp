@@ -70,7 +70,10 @@ PipelineCache::PipelineCache(VkPhysicalDevice physical, VkDevice device)
 }
 
 PipelineCache::~PipelineCache() {
-    save();
+    try {
+        save();
+    } catch (const std::exception&) { // no memory left to save with: the next start compiles again
+    }
     vkDestroyPipelineCache(_device, _cache, nullptr);
 }
 

@@ -56,12 +56,16 @@ Settings fewSamples() {
     return settings;
 }
 
+ColorPicture rendered(Stage& stage) {
+    build(stage);
+    stage.render();
+    return stage.color();
+}
+
 ColorPicture reference() {
     static const ColorPicture picture = [] {
         Stage stage(fewSamples());
-        build(stage);
-        stage.render();
-        save(stage.color(), "determinism");
+        save(rendered(stage), "determinism");
         return stage.color();
     }();
     return picture;
@@ -73,9 +77,7 @@ TEST(Determinism, BatchAndTileSizesDoNotMatter) {
     for (const RendererInternals& internals :
          {RendererInternals{8, 500}, {16, 3000}, {32, 1 << 16}, {64, 1 << 15}, {16, 1 << 16}}) {
         Stage stage(fewSamples(), internals);
-        build(stage);
-        stage.render();
-        EXPECT_TRUE(sameBits(reference(), stage.color()))
+        EXPECT_TRUE(sameBits(reference(), rendered(stage)))
             << internals.tileSize << " " << internals.batchPaths;
     }
 }
@@ -89,9 +91,7 @@ TEST(Determinism, AllTraversalsAgree) {
             std::cout << stage.messages()[0].text << "\n";
             continue;
         }
-        build(stage);
-        stage.render();
-        EXPECT_TRUE(sameBits(reference(), stage.color())) << traversal;
+        EXPECT_TRUE(sameBits(reference(), rendered(stage))) << traversal;
     }
 }
 
@@ -102,18 +102,14 @@ TEST(Determinism, MemoryOfItsOwnDoesNotMatter) {
     setenv("HIPR_NO_HOST_MEMORY", "1", 1);
     Stage stage(fewSamples());
     unsetenv("HIPR_NO_HOST_MEMORY");
-    build(stage);
-    stage.render();
-    EXPECT_TRUE(sameBits(expected, stage.color()));
+    EXPECT_TRUE(sameBits(expected, rendered(stage)));
 }
 
 TEST(Determinism, MoreSamplesLaterAreTheSameSamples) {
     Settings settings = fewSamples();
     settings.samples = 2;
     Stage stage(settings);
-    build(stage);
-    stage.render();
-    EXPECT_FALSE(sameBits(reference(), stage.color()));
+    EXPECT_FALSE(sameBits(reference(), rendered(stage)));
     stage.settings(fewSamples());
     EXPECT_EQ(stage.renderer->progress().samplesDone, 2u); // nothing was thrown away
     stage.render();
@@ -124,9 +120,7 @@ TEST(Determinism, SeedChangesNoiseOnly) {
     Settings settings = fewSamples();
     settings.seed = 1;
     Stage stage(settings);
-    build(stage);
-    stage.render();
-    EXPECT_FALSE(sameBits(reference(), stage.color()));
+    EXPECT_FALSE(sameBits(reference(), rendered(stage)));
     EXPECT_NEAR(mean(stage.color()).y, mean(reference()).y, 0.05f * mean(reference()).y);
 }
 

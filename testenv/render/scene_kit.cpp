@@ -108,6 +108,10 @@ Stage::Stage(Settings settings, RendererInternals internals) {
 
 Stage::~Stage() {
     EXPECT_EQ(renderer->validationErrors(), 0u);
+    renderer.reset(); // the layer names what was not destroyed
+    for (const Message& message : messages())
+        EXPECT_FALSE(message.severity == Severity::Error && message.subject == "Vulkan validation")
+            << message.text;
 }
 
 ObjectId Stage::add(std::shared_ptr<const TriangleMesh> mesh, MaterialDesc material,

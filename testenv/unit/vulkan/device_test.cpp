@@ -1,6 +1,5 @@
 #include <numeric>
 
-#include "renderer/vulkan/result.h"
 #include "testenv/unit/vulkan/fixture.h"
 
 namespace hipr::test {
@@ -38,12 +37,8 @@ TEST_P(DeviceTransfers, AFailedRecordingLeavesTheDeviceUsable) {
 /// The counter the other tests rely on has to count.
 TEST(Validation, MistakesAreCountedAndReported) {
     Messages messages;
-    RendererOptions options;
-    options.validation = true;
-    options.messages = messages.sink();
-    std::string error;
-    const auto device = Device::create(options, &error);
-    ASSERT_TRUE(device) << error;
+    const auto device = validatedDevice(messages);
+    ASSERT_TRUE(device);
     const Buffer buffer = device->createBuffer(64, MemoryUse::Device, "data");
     device->run(
         [&](VkCommandBuffer cmd) { vkCmdFillBuffer(cmd, buffer.handle(), 0, 6, 0); }); // not a multiple of 4
@@ -66,12 +61,8 @@ TEST(Validation, IsOffByDefaultAndOnByEnvironment) {
 TEST(Validation, AMissingLayerIsOneWarning) {
     const Environment path("VK_LAYER_PATH", "/nonexistent"), added("VK_ADD_LAYER_PATH", "/nonexistent");
     Messages messages;
-    RendererOptions options;
-    options.validation = true;
-    options.messages = messages.sink();
-    std::string error;
-    const auto device = Device::create(options, &error);
-    ASSERT_TRUE(device) << error;
+    const auto device = validatedDevice(messages);
+    ASSERT_TRUE(device);
     EXPECT_FALSE(device->validation());
     ASSERT_EQ(messages.all().size(), 1u);
     EXPECT_EQ(messages.all()[0].severity, Severity::Warning);
@@ -83,6 +74,14 @@ TEST(Result, CodesBecomeExceptions) {
     EXPECT_NO_THROW(check(VK_INCOMPLETE, "x"));
     EXPECT_THROW(check(VK_ERROR_DEVICE_LOST, "x"), DeviceLost);
     EXPECT_THROW(check(VK_ERROR_OUT_OF_DEVICE_MEMORY, "x"), std::bad_alloc);
+    EXPECT_STREQ(reasonOf(std::bad_alloc()), "out of memory");
+    try {
+        check(VK_ERROR_OUT_OF_HOST_MEMORY, "vkThing");
+        FAIL();
+    } catch (const std::bad_alloc& e) {
+        EXPECT_STREQ(reasonOf(e),
+                     "out of memory in the Vulkan driver (vkThing: VK_ERROR_OUT_OF_HOST_MEMORY)");
+    }
     try {
         check(VK_ERROR_INITIALIZATION_FAILED, "vkThing");
         FAIL();

@@ -53,17 +53,24 @@ private:
     bool _had = false;
 };
 
+/// A device whose messages, the validation layer's among them, go to `messages`; null fails the test.
+inline std::unique_ptr<Device> validatedDevice(Messages& messages) {
+    RendererOptions options;
+    options.validation = true;
+    options.messages = messages.sink();
+    std::string error;
+    std::unique_ptr<Device> device = Device::create(options, &error);
+    EXPECT_TRUE(device) << error;
+    return device;
+}
+
 /// The parameter is hostMemory(): lavapipe as it is, and treated as a GPU with memory of its own.
 class DeviceTest : public ::testing::TestWithParam<bool> {
 protected:
     void SetUp() override {
         const Environment environment("HIPR_NO_HOST_MEMORY", GetParam() ? "0" : "1");
-        RendererOptions options;
-        options.validation = true;
-        options.messages = messages.sink();
-        std::string error;
-        device = Device::create(options, &error);
-        ASSERT_TRUE(device) << error;
+        device = validatedDevice(messages);
+        ASSERT_TRUE(device);
         if (GetParam() && !device->hostMemory()) GTEST_SKIP() << "the device has memory of its own";
         ASSERT_TRUE(device->validation()) << "VK_LAYER_KHRONOS_validation is not installed";
     }

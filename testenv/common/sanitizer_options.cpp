@@ -1,0 +1,13 @@
+// Compiled into every program of a build with HIPR_SANITIZE: how the sanitizers run.
+
+#define HIPR_SANITIZER extern "C" __attribute__((visibility("default"), used)) const char*
+
+HIPR_SANITIZER __asan_default_options() {
+    // An allocation that is too large is to fail as it would anywhere. hiprrecord and the plugin it loads both hold the
+    // renderer's static libraries, which is no violation of the one-definition rule as each keeps to its own.
+    return "allocator_may_return_null=1:detect_odr_violation=0:detect_stack_use_after_return=1";
+}
+
+HIPR_SANITIZER __ubsan_default_options() {
+    return "print_stacktrace=1:halt_on_error=1";
+}
