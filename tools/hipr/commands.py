@@ -72,12 +72,13 @@ def test(options) -> int:
 
 def bench(options) -> int:
     what, *arguments = options.arguments or [""]
-    if what not in ("trace", "cycles"):
-        raise HiprError(f"there is no benchmark '{what}'." if what else "which benchmark?", "Say trace or cycles.")
-    sdk, project = _built(options, openusd.CORE, tests=True)
+    scripts = {"cycles": "compare_cycles.py", "edits": "edits/bench_edits.py"}
+    if what != "trace" and what not in scripts:
+        raise HiprError(f"there is no benchmark '{what}'." if what else "which benchmark?", "Say trace, cycles or edits.")
+    sdk, project = _built(options, openusd.CORE, tests=what != "edits")
     if what == "trace":
         return _replace(project.program("hipr-bench"), ["trace", *arguments], sdk)
-    script = paths.CHECKOUT / "testenv/bench/compare_cycles.py"
+    script = paths.CHECKOUT / "testenv/bench" / scripts[what]
     return _replace(script, ["--record", str(project.program("hiprrecord")), *arguments], sdk, python=True)
 
 

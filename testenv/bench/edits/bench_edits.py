@@ -1,0 +1,107 @@
+#!/usr/bin/env python3
+"""Measures how soon edits show: HiPR's modes against uniform restarts, over scripted edits of several scenes.
+
+Every edit is made on a converged picture and rendered to convergence, in every mode, in turns. D is the difference of the
+converged pictures before and after (same seed: what an edit does not touch is equal to the last bit). T50, T90, T99 are
+the work (paths, scouts included) and the time until that share of D lies in tiles with a new sample. The first turn renders
+all samples and gives all figures of work; the other turns render few samples and give more times. numpy, OpenEXR and
+matplotlib come from PyPI into a virtual environment of their own, once.
+"""
+
+import argparse
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+PACKAGES = ("numpy", "matplotlib", "OpenEXR", "flip-evaluator")
+
+
+def enter_environment(folder):
+    """Goes on in the virtual environment in `folder`, which is made when missing."""
+    if Path(sys.prefix).resolve() == folder.resolve():
+        return
+    python = folder / "bin" / "python"
+    if not (folder / "complete").exists():
+        print(f"Installing {', '.join(PACKAGES)} into {folder}", file=sys.stderr)
+        subprocess.run(["/usr/bin/python3", "-m", "venv", folder], check=True)
+        subprocess.run([python, "-m", "pip", "install", "-q", *PACKAGES], check=True)
+        (folder / "complete").touch()
+    os.execv(python, [str(python), *sys.argv])
+
+
+def parse():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--record", default="hiprrecord", help="the hiprrecord to measure")
+    parser.add_argument("--modes", default="uniform,delta", help="uniform first: the yardstick [%(default)s]")
+    parser.add_argument("--samples", type=int, default=16)
+    parser.add_argument("--few", type=int, default=4, help="samples of the later turns [%(default)s]")
+    parser.add_argument("--turns", type=int, default=3)
+    parser.add_argument("--only", default="", metavar="REGEX", help="only scenes whose name matches")
+    parser.add_argument("--flip", default="move ball,only in mirror,only by shadow,roughness of brass,one of 2500 moved",
+                        metavar="EDIT,...", help="edits whose FLIP error is followed batch by batch [%(default)s]")
+    parser.add_argument("--assets", type=Path, default=Path(os.environ.get("HIPR_ASSETS", HERE.parents[3] / "shared/assets")),
+                        help="folder of the real scenes; skipped when missing [%(default)s]")
+    parser.add_argument("--csv", type=Path, help="also write every figure here")
+    parser.add_argument("--plot", type=Path, help="also draw the figures against work here (PNG)")
+    parser.add_argument("--keep", type=Path, help="keep scripts, logs and pictures in this folder")
+    parser.add_argument("--set", action="append", default=[], help="a setting of every recording")
+    cache = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    parser.add_argument("--environment", type=Path, default=cache / "hipr" / "bench-edits",
+                        help="where the Python packages are installed [%(default)s]")
+    return parser.parse_args()
+
+
+class Recorder:
+    """Plays a scene's edits with hiprrecord."""
+
+    def __init__(self, program, settings, folder):
+        self.program, self.settings, self.folder = program, settings, folder
+
+    def play(self, scene, mode, samples, turn, frames=False):
+        """The runs, one a picture, and where the pictures are. `frames`: also the picture after every batch."""
+        from schedule_log import read_log
+
+        folder = self.folder / scene.name / f"{mode}.{turn}"
+        folder.mkdir(parents=True, exist_ok=True)
+        script, log = folder / "edits.json", folder / "log.jsonl"
+        script.write_text(json.dumps({"edits": scene.edits}, indent=1))
+        settings = [word for text in (f"hipr:mode={mode}", *self.settings) for word in ("--set", text)]
+        if frames:
+            settings += ["--edit-frames", folder / "frames"]
+        subprocess.run([self.program, scene.stage, "-q", "--edits", script, "-o", folder / "picture.exr", "--size",
+                        f"{scene.size[0]}x{scene.size[1]}", "-n", str(samples), *settings],
+                       check=True, env={**os.environ, "HIPR_SCHEDULE_LOG": str(log)})
+        return read_log(log, samples, len(scene.edits) + 1), folder
+
+
+def main():
+    options = parse()
+    enter_environment(options.environment)
+    import edit_flip
+    from edit_report import Report
+    from edit_runs import measure
+    from edit_scenes import all_scenes
+
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = options.keep or Path(temporary)
+        folder.mkdir(parents=True, exist_ok=True)
+        recorder = Recorder(options.record, options.set, folder)
+        report = Report(options.modes.split(","))
+        scenes = [scene for scene in all_scenes(folder, options.assets) if re.search(options.only, scene.name)]
+        for scene in scenes:
+            print(f"{scene.name}: {len(scene.edits)} edits", file=sys.stderr)
+            report.rows += measure(recorder, scene, options)
+            report.flip += edit_flip.measure(recorder, scene, options.flip.split(","), report.modes, options.samples)
+        report.print(options)
+        if options.csv:
+            report.write_csv(options.csv)
+        if options.plot:
+            report.draw(options.plot)
+
+
+main()

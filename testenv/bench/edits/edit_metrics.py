@@ -1,0 +1,60 @@
+"""What the log of a run is worth, given where the edit truly shows."""
+
+import numpy as np
+
+SHARES = (0.5, 0.9, 0.99)
+DELTA = 1 / 255  # a change of less than this is not seen
+BLOCK = 4
+LOCAL = 0.15  # of the frame
+
+
+def difference(old, new):
+    """D: how much a pixel changed, mean over the channels, rows bottom-up like the film's. A few samples a pixel are no
+    converged reference: light that takes rare ways leaves specks all over the frame, which would count as changes. So the
+    signed difference is averaged over BLOCK x BLOCK pixels first, as many samples as a reference of BLOCK^2 times the
+    samples has there. Changes that nobody sees, below DELTA, do not count."""
+    d = new.astype(np.float64) - old
+    height, width, _ = d.shape
+    padded = np.pad(d, ((0, -height % BLOCK), (0, -width % BLOCK), (0, 0)), mode="edge")
+    blocks = padded.reshape(padded.shape[0] // BLOCK, BLOCK, -1, BLOCK, 3).mean(axis=(1, 3))
+    means = np.abs(blocks).mean(axis=2)
+    d = means.repeat(BLOCK, axis=0).repeat(BLOCK, axis=1)[:height, :width]
+    return np.where(d > DELTA, d, 0)[::-1]
+
+
+def tile_energy(grid, d):
+    rows = np.add.reduceat(d, np.arange(0, grid.height, grid.tile), axis=0)
+    return np.add.reduceat(rows, np.arange(0, grid.width, grid.tile), axis=1).ravel()
+
+
+def times(run, energy):
+    """For each of SHARES: paths and seconds until that share of the energy lies in tiles with a new sample."""
+    refreshed = np.cumsum([energy[step.fresh].sum() for step in run.steps]) / energy.sum()
+    result = []
+    for share in SHARES:
+        step = run.steps[int(np.argmax(refreshed >= share * (1 - 1e-12)))]
+        result.append((step.paths, step.seconds))
+    return result
+
+
+def quality(run, energy):
+    """Area under the energy captured by the run's order of tiles, over that of the best order; for the whole frame, and for
+    as many tiles as the best order needs for 99 % of the energy."""
+    order = run.order()
+    ours, best = np.cumsum(energy[order]), np.cumsum(np.sort(energy)[::-1])
+    needed = int(np.argmax(best >= 0.99 * best[-1])) + 1
+    return ours.sum() / best.sum(), ours[:needed].sum() / best[:needed].sum()
+
+
+def found(run, energy):
+    """Recall: the discovered tiles' share of the energy. Waste: the share of discovered tiles that hold nothing."""
+    tiles = list(run.found)
+    if not tiles:
+        return 0.0, 0.0
+    return energy[tiles].sum() / energy.sum(), float((energy[tiles] == 0).mean())
+
+
+def frame(run):
+    """Paths and seconds of a one-sample frame: until every tile has a sample."""
+    last = max(i for i, step in enumerate(run.steps) if step.fresh)
+    return run.steps[last].paths, run.steps[last].seconds

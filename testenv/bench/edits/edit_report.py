@@ -1,0 +1,114 @@
+"""Tables, CSV and plots of the rows of edit_runs."""
+
+import csv
+import os
+from statistics import median
+
+HEAD = ("| edit | shows in | T50 | T90 | T99 | T90 / uniform | on the clock | quality | strict | recall | found | waste | "
+        "scouts | survey | reveal |")
+
+
+class Report:
+    def __init__(self, modes):
+        self.modes, self.rows, self.flip = modes, [], []
+
+    def _base(self, row):
+        return next(r for r in self.rows if (r["scene"], r["edit"], r["mode"]) == (row["scene"], row["edit"], self.modes[0]))
+
+    def ratio(self, row, share=1):
+        return row["paths"][share] / self._base(row)["paths"][share]
+
+    def clock(self, row, share=1):
+        """Ratios of time, turn by turn."""
+        return sorted(a[share] / b[share] for a, b in zip(row["seconds"], self._base(row)["seconds"]))
+
+    def _line(self, row):
+        clock = self.clock(row)
+        frames = [paths / row["pixels"] for paths in row["paths"]]
+        cells = [f"{row['scene']}: {row['edit']}", f"{100 * row['region']:.1f} %", *(f"{f:.2f}" for f in frames),
+                 f"{self.ratio(row):.2f}", f"{median(clock):.2f} ({clock[0]:.2f}-{clock[-1]:.2f})",
+                 f"{row['quality']:.2f}", f"{row['strict']:.2f}", f"{100 * row['recall']:.1f} %",
+                 f"{row['found']} of {row['tiles']}", f"{100 * row['waste']:.0f} %",
+                 f"{100 * row['scouts'] / row['pixels']:.1f} %",
+                 f"{100 * row['surveyed'] / self._base(row)['frame']:.1f} %",
+                 f"{1000 * row['reveal']:.0f} ms"]
+        return "| " + " | ".join(cells) + " |"
+
+    def _summary(self, mode, rows, kind):
+        if not rows:
+            return
+        t90 = [self.ratio(row) for row in rows]
+        clock = [median(self.clock(row)) for row in rows]
+        print(f"{mode}, {len(rows)} {kind} edits: T90 / uniform median {median(t90):.2f}, worst {max(t90):.2f}; on the clock "
+              f"median {median(clock):.2f}, worst {max(clock):.2f}; quality median {median(r['quality'] for r in rows):.2f}, "
+              f"strict {median(r['strict'] for r in rows):.2f}; recall least {100 * min(r['recall'] for r in rows):.1f} %, "
+              f"median {100 * median(r['recall'] for r in rows):.1f} %; scouts most "
+              f"{100 * max(r['scouts'] / r['pixels'] for r in rows):.1f} % of a frame")
+
+    def print(self, options):
+        print(f"{options.samples} samples, {options.turns} turns, load {os.getloadavg()[0]:.1f}. T: frames of one sample.\n")
+        for mode in self.modes:
+            rows = [row for row in self.rows if row["mode"] == mode]
+            for local in (True, False):
+                some = [row for row in rows if row["local"] == local]
+                if not some:
+                    continue
+                print(f"{mode}, {'local' if local else 'global'} edits\n\n{HEAD}\n{'|---' * (HEAD.count('|') - 1)}|")
+                for row in some:
+                    print(self._line(row))
+                print()
+        for mode in self.modes[1:]:
+            rows = [row for row in self.rows if row["mode"] == mode]
+            self._summary(mode, [row for row in rows if row["local"]], "local")
+            self._summary(mode, [row for row in rows if not row["local"]], "global")
+
+        self._print_flip()
+
+    def _print_flip(self):
+        if not self.flip:
+            return
+        print(f"\nFrames of one sample until the FLIP error of the changed region is 10 % of what it was\n\n| edit | "
+              f"{' | '.join(self.modes)} | {' | '.join(f'{mode} / uniform' for mode in self.modes[1:])} |\n"
+              f"{'|---' * (2 * len(self.modes))}|")
+        for row in self.flip:
+            base = row["done"][self.modes[0]]
+            cells = [f"{row['done'][mode]:.2f}" for mode in self.modes] + \
+                    [f"{row['done'][mode] / base:.2f}" for mode in self.modes[1:]]
+            print(f"| {row['scene']}: {row['edit']} | {' | '.join(cells)} |")
+
+    def write_csv(self, path):
+        names = ["scene", "edit", "mode", "kind", "region", "local", "tiles", "pixels", "energy", "quality", "strict", "recall",
+                 "waste", "found", "scouts", "surveyed", "reveal", "frame", "restarts"]
+        with open(path, "w", newline="") as file:
+            writer = csv.writer(file)
+            writer.writerow(names + ["t50_paths", "t90_paths", "t99_paths", "t50_seconds", "t90_seconds", "t99_seconds"])
+            for row in self.rows:
+                seconds = [median(turn[i] for turn in row["seconds"]) for i in range(3)]
+                writer.writerow([row[name] for name in names] + row["paths"] + seconds)
+
+    def draw(self, path):
+        """One panel an edit: the share of the difference that is still old, against work; then the FLIP errors."""
+        import matplotlib
+        matplotlib.use("Agg")
+        from matplotlib import pyplot
+
+        edits = list(dict.fromkeys((row["scene"], row["edit"]) for row in self.rows))
+        columns = 6
+        rows = -(-(len(edits) + len(self.flip)) // columns)
+        figure, axes = pyplot.subplots(rows, columns, squeeze=False, figsize=(3 * columns, 2.2 * rows))
+        for axis, key in zip(axes.flat, edits):
+            for row in (r for r in self.rows if (r["scene"], r["edit"]) == key):
+                work = [0] + [paths / row["pixels"] for paths, _ in row["curve"]]
+                axis.step(work, [1] + [1 - share for _, share in row["curve"]], where="post", label=row["mode"])
+            axis.set_title(": ".join(key), fontsize=8)
+            axis.set_xlim(0, 1.5)
+        for axis, row in zip(axes.flat[len(edits):], self.flip):
+            for mode, points in row["curves"].items():
+                axis.step(*zip(*points), where="post", label=mode)
+            axis.set_title(f"FLIP, {row['scene']}: {row['edit']}", fontsize=8)
+            axis.set_ylim(bottom=0)
+        axes.flat[0].legend(fontsize=8)
+        figure.supxlabel("work: frames of one sample")
+        figure.supylabel("share of the difference still to be refreshed; FLIP error of the changed region")
+        figure.tight_layout()
+        figure.savefig(path, dpi=80)
