@@ -80,9 +80,10 @@ public:
     /// Applies an edit (and empties it). Samples are discarded when anything changed.
     virtual ChangedSet commit(SceneEdit& edit) = 0;
 
-    /// Each discards all samples if, and only if, the value differs in a way that changes the picture.
-    virtual void setFilm(const FilmDesc& film) = 0;
-    virtual void setSettings(const Settings& settings) = 0;
+    /// Each discards all samples if, and only if, the value differs in a way that changes the picture. The set then
+    /// has one element, of kind Change::Setting; otherwise it is empty.
+    virtual ChangedSet setFilm(const FilmDesc& film) = 0;
+    virtual ChangedSet setSettings(const Settings& settings) = 0;
 
     /// Renders one batch of work (a few tens of milliseconds on an interactive scene). Returns false when converged,
     /// cancelled or nothing can be rendered. The film always holds whole samples.

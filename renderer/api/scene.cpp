@@ -5,6 +5,22 @@
 
 namespace hipr {
 
+std::string toString(Change change) {
+    static constexpr const char* names[] = {"added",    "removed",  "transform",  "geometry", "primvar",
+                                            "material", "emission", "visibility", "camera",   "setting"};
+    std::string text;
+    for (size_t bit = 0; bit < std::size(names); ++bit)
+        if (change & Change(1u << bit)) text += (text.empty() ? "" : ", ") + std::string(names[bit]);
+    return text;
+}
+
+Change ChangedSet::kinds() const {
+    Change kinds = Change::None;
+    for (const ChangedElement& element : elements)
+        kinds = kinds | element.change;
+    return kinds;
+}
+
 // Later calls for the same id win because ops are applied in order; nothing is merged here.
 
 void SceneEdit::record(Op op) {

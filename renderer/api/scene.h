@@ -51,12 +51,15 @@ enum class Change : uint32_t {
     Emission = 1u << 6,
     Visibility = 1u << 7,
     Camera = 1u << 8,
-    Setting = 1u << 9,
+    Setting = 1u << 9,    ///< a setting that matters to the picture, or the film
 };
 constexpr Change operator|(Change a, Change b) { return Change(uint32_t(a) | uint32_t(b)); }
 constexpr bool operator&(Change a, Change b) { return (uint32_t(a) & uint32_t(b)) != 0; }
+/// Its kinds in words: "transform, material".
+std::string toString(Change change);
 
-/// One changed element. `instance` is the index into InstancesDesc::transforms, or AllInstances.
+/// One changed element. `instance` is the index into InstancesDesc::transforms (before the edit if the instance
+/// was removed), or AllInstances.
 struct ChangedElement {
     static constexpr uint32_t AllInstances = std::numeric_limits<uint32_t>::max();
     std::variant<std::monostate, ObjectId, LightId, MaterialId> element; ///< monostate: camera or setting
@@ -64,10 +67,13 @@ struct ChangedElement {
     uint32_t instance = AllInstances;
 };
 
-/// What a commit changed; the input of HiPR's schedule.
+/// What a commit changed; the input of HiPR's schedule. An element is named once, or once for each instance
+/// concerned; a new one is Added, and whatever else was said of it meanwhile is no change.
 struct ChangedSet {
     std::vector<ChangedElement> elements;
     bool empty() const { return elements.empty(); }
+    /// The kinds of all elements together.
+    Change kinds() const;
 };
 
 /// A batch of changes. All methods are thread-safe; later calls for the same id win.

@@ -1,5 +1,7 @@
 #include "renderer/scene/gpu_scene.h"
 
+#include <unordered_set>
+
 #include <glm/gtc/constants.hpp>
 
 namespace hipr {
@@ -30,6 +32,42 @@ Change lightChange(const LightDesc& a, const LightDesc& b) {
     return a.transform == b.transform ? Change::Emission : Change::Emission | Change::Transform;
 }
 
+/// Marks the instances that a later call for the same object replaces.
+std::vector<bool> superseded(const std::vector<SceneEdit::Op>& ops) {
+    std::vector<bool> result(ops.size());
+    std::unordered_set<ObjectId> later;
+    for (size_t i = ops.size(); i-- > 0;)
+        if (const auto* op = std::get_if<SceneEdit::InstancesOp>(&ops[i]))
+            result[i] = !later.insert(op->id).second;
+    return result;
+}
+
+/// One entry for each element. Single instances are left alone: they are named once as it is.
+void mergeElements(ChangedSet& changed) {
+    std::unordered_map<uint64_t, size_t> seen;
+    std::vector<ChangedElement> merged;
+    merged.reserve(changed.elements.size());
+    for (const ChangedElement& element : changed.elements) {
+        const uint64_t id = std::visit(
+            [](const auto& e) {
+                if constexpr (std::is_same_v<std::decay_t<decltype(e)>, std::monostate>)
+                    return uint64_t(0);
+                else
+                    return uint64_t(e);
+            },
+            element.element);
+        const bool whole = element.instance == ChangedElement::AllInstances;
+        const auto [at, isNew] =
+            whole ? seen.try_emplace(uint64_t(element.element.index()) << 32 | id, merged.size())
+                  : std::pair(seen.end(), true);
+        if (isNew)
+            merged.push_back(element);
+        else
+            merged[at->second].change = merged[at->second].change | element.change;
+    }
+    changed.elements = std::move(merged);
+}
+
 } // namespace
 
 GpuScene::GpuScene(Device& device, AssetReader assets)
@@ -46,8 +84,10 @@ void GpuScene::setTraversal(std::unique_ptr<Traversal> traversal) {
 
 ChangedSet GpuScene::apply(const std::vector<SceneEdit::Op>& ops) {
     ChangedSet changed;
-    for (const SceneEdit::Op& op : ops)
-        std::visit([&](const auto& o) { apply(o, changed); }, op);
+    const std::vector<bool> skip = superseded(ops);
+    for (size_t i = 0; i < ops.size(); ++i)
+        if (!skip[i]) std::visit([&](const auto& o) { apply(o, changed); }, ops[i]);
+    mergeElements(changed);
     return changed;
 }
 

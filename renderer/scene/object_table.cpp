@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/scene/instance_diff.h"
+
 namespace hipr {
 namespace {
 
@@ -23,15 +25,6 @@ bool canBeRendered(const glm::mat4x3& m) {
 
 bool mirrors(const glm::mat4x3& m) {
     return glm::dot(glm::cross(m[0], m[1]), m[2]) < 0;
-}
-
-// One value per instance, whichever way the primvar is indexed; -1 when it has none for this instance.
-int64_t valueIndex(const Primvar& primvar, size_t instance) {
-    if (!primvar.indices.empty()) {
-        if (instance >= primvar.indices.size() || primvar.indices[instance] < 0) return -1;
-        instance = size_t(primvar.indices[instance]);
-    }
-    return (instance + 1) * primvar.components <= primvar.values.size() ? int64_t(instance) : -1;
 }
 
 bool isTranslucent(const std::vector<Primvar>& primvars) {
@@ -56,8 +49,9 @@ bool ObjectTable::Placement::operator==(const Placement& o) const {
 void ObjectTable::setObject(ObjectId id, const ObjectDesc& desc, ChangedSet& changed) {
     Entry& entry = _entries[id];
     if (!entry.desc) {
+        entry.fresh = true;
         note(changed, id, Change::Added);
-    } else {
+    } else if (!entry.fresh) {
         Change change = Change::None;
         if (entry.desc->geometry != desc.geometry) change = change | Change::Geometry;
         if (entry.desc->materials != desc.materials) change = change | Change::Material;
@@ -72,18 +66,15 @@ void ObjectTable::setObject(ObjectId id, const ObjectDesc& desc, ChangedSet& cha
 }
 
 void ObjectTable::setInstances(ObjectId id, const InstancesDesc& desc, ChangedSet& changed) {
+    static const InstancesDesc once{{glm::mat4x3(1.f)}, {}, {}};
     Entry& entry = _entries[id];
-    const InstancesDesc old = entry.instances ? *entry.instances : InstancesDesc{{glm::mat4x3(1.f)}, {}, {}};
-    const bool sameData = old.instanceIds == desc.instanceIds && old.primvars == desc.primvars;
-    if (!sameData || old.transforms.size() != desc.transforms.size()) {
-        note(changed, id, sameData ? Change::Transform : Change::Transform | Change::Primvar);
-        vacate(entry);
-    } else {
-        for (uint32_t i = 0; i < old.transforms.size(); ++i) {
-            if (old.transforms[i] == desc.transforms[i]) continue;
-            note(changed, id, Change::Transform, i);
-            vacate(entry, i);
-        }
+    const std::vector<InstanceChange> changes =
+        changedInstances(entry.instances ? *entry.instances : once, desc);
+    if (changes.empty()) return;
+    const bool known = entry.desc && !entry.fresh; // that the object is new says it all
+    for (size_t i = 0; i < changes.size() && known; ++i) {
+        note(changed, id, changes[i].change, changes[i].instance);
+        if (changes[i].change != Change::Added) vacate(entry, changes[i].instance);
     }
     entry.instances = desc;
     entry.transformsPending = true;
@@ -102,6 +93,7 @@ void ObjectTable::geometryChanged(GeometryId geometry, Change change, ChangedSet
         if (!entry.desc || entry.desc->geometry != geometry) continue;
         entry.boundsPending = true;
         entry.missingReported = false;
+        if (entry.fresh) continue;
         note(changed, id, change == Change::Primvar ? Change::Primvar : Change::Geometry);
         vacate(entry);
     }
@@ -146,7 +138,7 @@ void ObjectTable::uploadPrimvars(Entry& entry) {
     for (const Primvar& primvar : entry.instances->primvars) {
         const bool complete = primvar.components >= 1 && primvar.components <= 4 &&
                               std::all_of(entry.usable.begin(), entry.usable.end(),
-                                          [&](uint32_t i) { return valueIndex(primvar, i) >= 0; });
+                                          [&](uint32_t i) { return instanceValue(primvar, i) >= 0; });
         if (!complete) {
             _device.messages()(Severity::Warning, entry.desc->name,
                                "instance primvar '" + primvar.name +
@@ -163,7 +155,7 @@ void ObjectTable::uploadPrimvars(Entry& entry) {
         for (size_t i = 0; i < used.size(); ++i)
             records.push_back(
                 {entry.primvars.address() + offsets[i] +
-                     uint64_t(valueIndex(*used[i], instance)) * used[i]->components * sizeof(float),
+                     uint64_t(instanceValue(*used[i], instance)) * used[i]->components * sizeof(float),
                  _names.intern(used[i]->name), gpu::INTERPOLATION_CONSTANT, used[i]->components, 0});
     pack.write(table, records);
     pack.upload(_device, entry.primvars);
@@ -249,7 +241,9 @@ void ObjectTable::addOccupied(const ChangedElement& element, std::vector<WorldBo
     };
     if (const ObjectId* id = std::get_if<ObjectId>(&element.element)) {
         const auto found = _entries.find(*id);
-        if (found != _entries.end()) add(instanceBox(found->second, element.instance));
+        if (found == _entries.end()) return;
+        // The index of a removed instance may be another's by now.
+        if (element.change != Change::Removed) add(instanceBox(found->second, element.instance));
     } else if (const MaterialId* material = std::get_if<MaterialId>(&element.element)) {
         for (const auto& [object, entry] : _entries) {
             if (!entry.desc) continue;
@@ -271,6 +265,7 @@ bool ObjectTable::commit(const GeometryTable& geometries, const MaterialTable* m
     std::vector<std::pair<ObjectId, Entry*>> rewritten;
     uint32_t total = 0;
     for (auto& [id, entry] : _entries) {
+        entry.fresh = false;
         const Geometry* geometry = shownGeometry(entry, geometries);
         const bool transformsChanged = geometry && entry.transformsPending;
         if (transformsChanged) {

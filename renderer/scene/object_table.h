@@ -19,7 +19,8 @@ class ObjectTable {
 public:
     ObjectTable(Device& device, NameTable& names) : _device(device), _names(names) {}
 
-    /// Each reports what differs from before into `changed`.
+    /// Each reports what differs from before into `changed`. Between two commits, instances are to be set
+    /// once per object: removed ones are named by their index in the committed scene.
     void setObject(ObjectId id, const ObjectDesc& desc, ChangedSet& changed);
     void setInstances(ObjectId id, const InstancesDesc& desc, ChangedSet& changed);
     void removeObject(ObjectId id, ChangedSet& changed);
@@ -58,6 +59,7 @@ private:
         WorldBox meshBox, box; ///< of the geometry, in object space; of all instances
         bool transformsPending = true, boundsPending = true;
         bool missingReported = false;
+        bool fresh = false; ///< added since the last commit: what else is said of it is no change
     };
 
     const Geometry* shownGeometry(Entry& entry, const GeometryTable& geometries);

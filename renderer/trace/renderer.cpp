@@ -55,6 +55,10 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+ChangedSet settingChange(bool changed) {
+    return changed ? ChangedSet{{{std::monostate(), Change::Setting}}} : ChangedSet();
+}
+
 bool anyCamera(const ChangedSet& changed) {
     return std::any_of(changed.elements.begin(), changed.elements.end(),
                        [](const ChangedElement& element) { return element.change & Change::Camera; });
@@ -136,17 +140,18 @@ ChangedSet RendererImpl::commit(SceneEdit& edit) {
     return changed;
 }
 
-void RendererImpl::setFilm(const FilmDesc& film) {
-    guarded([&] {
-        if (film == _film.desc()) return true;
+ChangedSet RendererImpl::setFilm(const FilmDesc& film) {
+    const bool changed = guarded([&] {
+        if (film == _film.desc()) return false;
         _film.setDesc(film);
         restart(Cause::Picture);
         return true;
     });
+    return settingChange(changed);
 }
 
-void RendererImpl::setSettings(const Settings& settings) {
-    guarded([&] {
+ChangedSet RendererImpl::setSettings(const Settings& settings) {
+    const bool changed = guarded([&] {
         const bool same = samePicture(_settings, settings);
         _settings = settings;
         const std::string traversal = _traversalInUse;
@@ -156,14 +161,16 @@ void RendererImpl::setSettings(const Settings& settings) {
         if (options || traversal != _traversalInUse) _scene.commit();
         _setupPending = true;
         _schedule.setFloor(settings.floorShare);
-        if (tileSize() != _schedule.grid().tileSize)
+        const bool tiles = tileSize() != _schedule.grid().tileSize;
+        if (tiles)
             restart(Cause::Picture);
         else if (!same)
             restart(Cause::Everything);
         std::lock_guard<std::mutex> lock(_progressMutex);
         _progress.samplesTotal = uint32_t(settings.samples);
-        return true;
+        return tiles || !same;
     });
+    return settingChange(changed);
 }
 
 uint32_t RendererImpl::tileSize() const {

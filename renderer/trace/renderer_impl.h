@@ -29,8 +29,8 @@ public:
 
     const DeviceInfo& device() const override { return _device->info(); }
     ChangedSet commit(SceneEdit& edit) override;
-    void setFilm(const FilmDesc& film) override;
-    void setSettings(const Settings& settings) override;
+    ChangedSet setFilm(const FilmDesc& film) override;
+    ChangedSet setSettings(const Settings& settings) override;
     bool renderBatch() override;
     Progress progress() const override;
     bool readAov(const AovRequest& aov, void* dst, size_t words) override;

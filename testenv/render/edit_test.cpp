@@ -89,13 +89,13 @@ std::vector<Expectation> edits() {
              s.ballPlaces.transforms.push_back(translation(0, 1.5f, -1));
              e.setInstances(ids.balls, s.ballPlaces);
          },
-         Change::Transform},
+         Change::Added},
         {"earlier object shrinks",
          [](Scene& s, SceneEdit& e) {
              s.floorPlace.transforms.clear();
              e.setInstances(ids.floor, s.floorPlace);
          },
-         Change::Transform},
+         Change::Removed},
         {"material",
          [](Scene& s, SceneEdit& e) {
              s.red.diffuseColor = constantColor({0.1f, 0.2f, 0.9f});
