@@ -89,10 +89,21 @@ HIPR_HOT void order(Entry& below, Entry& above) {
 
 constexpr uint32_t STACK = 7 * gpu::BVH_MAX_TRIANGLE_DEPTH + 8;
 
+/// Asks for the memory behind a reference of the tree ahead of its use.
+HIPR_HOT void prefetch(const WideUnit* tree, uint32_t child) {
+    const auto* p = reinterpret_cast<const char*>(tree + (child & ~WIDE_LEAF));
+    for (size_t line = 0; line < sizeof(WideNode); line += 64)
+        __builtin_prefetch(p + line);
+}
+
+/// What the leaves of a tree are.
+enum class Leaves { Instances, Triangles };
+
 /// The children that a ray meets: returns the nearest, the others go to the stack, the farthest first.
-class Met {
+template <Leaves LEAVES> class Met {
 public:
-    HIPR_HOT Met(const WideNode& node, uint32_t lanes, const F8& entry) : _node(node), _lanes(lanes) {
+    HIPR_HOT Met(const WideUnit* tree, const WideNode& node, uint32_t lanes, const F8& entry)
+        : _tree(tree), _node(node), _lanes(lanes) {
         const F8 distance = most(entry, F8{});
         std::memcpy(_distance, &distance, sizeof(distance));
     }
@@ -128,8 +139,11 @@ private:
     HIPR_HOT Entry next() {
         const uint32_t lane = uint32_t(__builtin_ctz(_lanes));
         _lanes &= _lanes - 1;
-        return Entry(_distance[lane]) << 32 | _node.child[lane];
+        const uint32_t child = _node.child[lane];
+        if (LEAVES == Leaves::Triangles || !(child & WIDE_LEAF)) prefetch(_tree, child);
+        return Entry(_distance[lane]) << 32 | child;
     }
+    const WideUnit* _tree;
     const WideNode& _node;
     uint32_t _lanes;
     alignas(32) uint32_t _distance[WIDE_CHILDREN];
@@ -137,7 +151,7 @@ private:
 
 /// Calls `leaf(index)` for the leaves that a ray meets before tMax, roughly nearest first, until it returns
 /// true.
-template <class Leaf>
+template <Leaves LEAVES, class Leaf>
 HIPR_HOT void walkTree(const WideUnit* tree, const NodeRay& ray, const float& tMax, const Leaf& leaf) {
     Entry stack[STACK];
     Entry* top = stack;
@@ -161,7 +175,7 @@ HIPR_HOT void walkTree(const WideUnit* tree, const NodeRay& ray, const float& tM
             else if (!(met & (met - 1)))
                 child = node.child[__builtin_ctz(met)];
             else
-                child = Met(node, met, entry).sort(top);
+                child = Met<LEAVES>(tree, node, met, entry).sort(top);
         }
         if (child != WIDE_NOTHING && leaf(child & ~WIDE_LEAF)) return;
         const uint32_t reach = sortable(tMax);
@@ -265,7 +279,7 @@ template <bool ANY> HIPR_HOT bool walkInstance(Walk& w, const gpu::BoxRay& world
     NodeRay nodeRay;
     setNodeRay(nodeRay, box, w.ray.tMin);
     const auto* tree = reinterpret_cast<const WideUnit*>(record.nodes);
-    walkTree(tree, nodeRay, w.best.t, [&](uint32_t leaf) {
+    walkTree<Leaves::Triangles>(tree, nodeRay, w.best.t, [&](uint32_t leaf) {
         return testLeaf<ANY>(w, leafRay, reinterpret_cast<const WideLeaf&>(tree[leaf]));
     });
     return ANY && w.best.instance != gpu::NO_INDEX;
@@ -274,8 +288,8 @@ template <bool ANY> HIPR_HOT bool walkInstance(Walk& w, const gpu::BoxRay& world
 template <bool ANY> void walkAll(Walk& w, const gpu::BoxRay& worldBox) {
     NodeRay nodeRay;
     setNodeRay(nodeRay, worldBox, w.ray.tMin);
-    walkTree(w.scene.top, nodeRay, w.best.t,
-             [&](uint32_t instance) { return walkInstance<ANY>(w, worldBox, instance); });
+    walkTree<Leaves::Instances>(w.scene.top, nodeRay, w.best.t,
+                                [&](uint32_t instance) { return walkInstance<ANY>(w, worldBox, instance); });
 }
 
 /// The top level is only walked when there is something to choose from.
