@@ -35,6 +35,7 @@ namespace hdhipr {
 /// The answer never depends on the host's GPU: HiPR brings its own Vulkan device.
 class RendererPluginBase : public HdRendererPlugin {
 public:
+    using HdRendererPlugin::IsSupported; // versions differ in how many forms they have besides those below
 #if PXR_VERSION < 2302
     bool IsSupported() const final {
         return supported(nullptr);
@@ -217,6 +218,39 @@ inline VtValue lightParam(HdSceneDelegate* delegate, SdfPath const& id, TfToken 
     }
 #endif
     return delegate->GetLightParamValue(id, name);
+}
+
+/// HdLight with its instancer: from 23.08 on, lights inside instances reach the renderer.
+class LightBase : public HdLight {
+public:
+    explicit LightBase(SdfPath const& id) : HdLight(id) {}
+
+protected:
+#if PXR_VERSION < 2308
+    void syncInstancer(HdSceneDelegate*, HdDirtyBits*) {}
+    SdfPath instancerId() const {
+        return SdfPath();
+    }
+#else
+    void syncInstancer(HdSceneDelegate* delegate, HdDirtyBits* dirtyBits) {
+        _UpdateInstancer(delegate, dirtyBits);
+        HdInstancer::_SyncInstancerAndParents(delegate->GetRenderIndex(), GetInstancerId());
+    }
+    SdfPath instancerId() const {
+        return GetInstancerId();
+    }
+#endif
+};
+
+/// How the poles of a dome light's texture lie in its own space (DomeLight_1, from 23.11 on).
+inline GfMatrix4d domeOffset([[maybe_unused]] HdSceneDelegate* delegate, [[maybe_unused]] SdfPath const& id) {
+#if PXR_VERSION >= 2311
+    const VtValue value = delegate->GetLightParamValue(id, HdLightTokens->domeOffset);
+    if (value.IsHolding<GfMatrix4d>()) {
+        return value.UncheckedGet<GfMatrix4d>();
+    }
+#endif
+    return GfMatrix4d(1.0);
 }
 
 /// The transform of a light; before 20.11 it travels as a parameter.

@@ -5,6 +5,7 @@
 
 #include "plugin/hdHipr/assets.h"
 #include "plugin/hdHipr/convert.h"
+#include "plugin/hdHipr/instancer.h"
 #include "plugin/hdHipr/messages.h"
 #include "plugin/hdHipr/renderParam.h"
 #include "pxr/imaging/hd/tokens.h"
@@ -45,25 +46,59 @@ bool HdHiprLight::handles(TfToken const& type) {
     return lightKind(type).has_value();
 }
 
-HdHiprLight::HdHiprLight(SdfPath const& id, TfToken const& type) : HdLight(id) {
+HdHiprLight::HdHiprLight(SdfPath const& id, TfToken const& type) : LightBase(id) {
     _desc.name = id.GetString();
     _desc.kind = lightKind(type).value_or(hipr::LightKind::Sphere);
 }
 
 void HdHiprLight::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdDirtyBits* dirtyBits) {
     auto& param = static_cast<HdHiprRenderParam&>(*renderParam);
-    if (*dirtyBits & DirtyTransform) {
-        _desc.transform = toGlm(lightTransform(delegate, GetId()));
+    syncInstancer(delegate, dirtyBits);
+    if (*dirtyBits & (DirtyTransform | DirtyParams)) {
+        _transform = lightTransform(delegate, GetId());
+        if (_desc.kind == hipr::LightKind::Dome) {
+            _transform = domeOffset(delegate, GetId()) * _transform;
+        }
     }
     if (*dirtyBits & (DirtyParams | DirtyShadowParams | DirtyCollection)) {
         syncParams(delegate);
         reportUnsupported(delegate);
     }
-    if (_light == hipr::LightId::None) {
-        _light = param.newId<hipr::LightId>();
-    }
-    param.setLight(_light, _desc);
+    send(delegate, param);
     *dirtyBits = Clean;
+}
+
+void HdHiprLight::send(HdSceneDelegate* delegate, HdHiprRenderParam& param) {
+    const std::vector<GfMatrix4d> transforms = instanceTransforms(delegate);
+    while (_lights.size() > transforms.size()) {
+        param.removeLight(_lights.back());
+        _lights.pop_back();
+    }
+    while (_lights.size() < transforms.size()) {
+        _lights.push_back(param.newId<hipr::LightId>());
+    }
+    for (size_t i = 0; i < transforms.size(); ++i) {
+        _desc.transform = toGlm(transforms[i]);
+        param.setLight(_lights[i], _desc);
+    }
+}
+
+std::vector<GfMatrix4d> HdHiprLight::instanceTransforms(HdSceneDelegate* delegate) const {
+    if (instancerId().IsEmpty()) {
+        return {_transform};
+    }
+    HdInstancer* instancer = delegate->GetRenderIndex().GetInstancer(instancerId());
+    if (!instancer) {
+        warnOnce(GetId().GetString(),
+                 "its instancer <" + instancerId().GetString() + "> does not exist; the light is off");
+        return {};
+    }
+    std::vector<GfMatrix4d> transforms =
+        static_cast<HdHiprInstancer*>(instancer)->instances(GetId()).transforms;
+    for (GfMatrix4d& transform : transforms) {
+        transform = _transform * transform;
+    }
+    return transforms;
 }
 
 void HdHiprLight::syncParams(HdSceneDelegate* delegate) {
@@ -124,11 +159,10 @@ void HdHiprLight::reportUnsupported(HdSceneDelegate* delegate) const {
 }
 
 void HdHiprLight::Finalize(HdRenderParam* renderParam) {
-    if (_light == hipr::LightId::None) {
-        return;
+    for (hipr::LightId light : _lights) {
+        static_cast<HdHiprRenderParam*>(renderParam)->removeLight(light);
     }
-    static_cast<HdHiprRenderParam*>(renderParam)->removeLight(_light);
-    _light = hipr::LightId::None;
+    _lights.clear();
 }
 
 PXR_NAMESPACE_CLOSE_SCOPE

@@ -7,7 +7,9 @@
 
 PXR_NAMESPACE_OPEN_SCOPE
 
-class HdHiprLight final : public HdLight {
+class HdHiprRenderParam;
+
+class HdHiprLight final : public hdhipr::LightBase {
 public:
     static bool handles(TfToken const& type);
 
@@ -20,9 +22,12 @@ public:
 private:
     void syncParams(HdSceneDelegate* delegate);
     void reportUnsupported(HdSceneDelegate* delegate) const;
+    void send(HdSceneDelegate* delegate, HdHiprRenderParam& param);
+    std::vector<GfMatrix4d> instanceTransforms(HdSceneDelegate* delegate) const;
 
-    hipr::LightId _light = hipr::LightId::None;
+    GfMatrix4d _transform{1.0};
     hipr::LightDesc _desc;
+    std::vector<hipr::LightId> _lights; ///< one for each instance
 };
 
 PXR_NAMESPACE_CLOSE_SCOPE
