@@ -5,7 +5,7 @@
 /// began).
 ///   restart  `kind`: picture, edit, camera, everything; `width`, `height`, `tileSize`
 ///   survey   `paths`: scouts of a batch
-///   order    `tiles`: [x, y, priority] of discovered tiles
+///   order    `tiles`: [x, y, priority] of discovered tiles; in mode paper first of the active ones alone
 ///   batch    `paths`, `tiles`: [x, y, width, height, firstSample, sampleCount]
 #pragma once
 

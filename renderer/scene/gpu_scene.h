@@ -41,6 +41,13 @@ public:
         for (const ChangedElement& element : changed.elements)
             _objects.addOccupied(element, regions);
     }
+    /// The instances that a changed set is about: after commit().
+    std::vector<gpu::ElementKey> keys(const ChangedSet& changed) const {
+        std::vector<gpu::ElementKey> keys;
+        for (const ChangedElement& element : changed.elements)
+            _objects.addKeys(element, keys);
+        return keys;
+    }
 
     const std::optional<CameraDesc>& camera() const { return _camera; }
     NameTable& names() { return _names; }

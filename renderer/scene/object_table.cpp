@@ -204,6 +204,7 @@ void ObjectTable::writeRecords(ObjectId id, Entry& entry) {
         record.primId = placed.primId;
         record.instanceId = hasIds ? entry.instances->instanceIds[source] : int(source);
         record.object = uint32_t(id);
+        record.objectInstance = source;
         record.primvarCount = entry.primvarCount;
         record.primvars =
             entry.primvarCount ? entry.primvarTable + i * entry.primvarCount * sizeof(gpu::PrimvarRecord) : 0;
@@ -235,6 +236,14 @@ void ObjectTable::vacate(const Entry& entry, uint32_t instance) {
     if (!box.empty()) _vacated.push_back(box);
 }
 
+template <class Visitor> void ObjectTable::forObjectsShowing(MaterialId material, Visitor&& visit) const {
+    for (const auto& [object, entry] : _entries) {
+        if (!entry.desc) continue;
+        const std::vector<MaterialId>& materials = entry.desc->materials;
+        if (std::find(materials.begin(), materials.end(), material) != materials.end()) visit(object, entry);
+    }
+}
+
 void ObjectTable::addOccupied(const ChangedElement& element, std::vector<WorldBox>& regions) const {
     const auto add = [&](const WorldBox& box) {
         if (!box.empty()) regions.push_back(box);
@@ -245,12 +254,18 @@ void ObjectTable::addOccupied(const ChangedElement& element, std::vector<WorldBo
         // The index of a removed instance may be another's by now.
         if (element.change != Change::Removed) add(instanceBox(found->second, element.instance));
     } else if (const MaterialId* material = std::get_if<MaterialId>(&element.element)) {
-        for (const auto& [object, entry] : _entries) {
-            if (!entry.desc) continue;
-            const std::vector<MaterialId>& materials = entry.desc->materials;
-            if (std::find(materials.begin(), materials.end(), *material) != materials.end()) add(entry.box);
-        }
+        forObjectsShowing(*material, [&](ObjectId, const Entry& entry) { add(entry.box); });
     }
+}
+
+void ObjectTable::addKeys(const ChangedElement& element, std::vector<gpu::ElementKey>& keys) const {
+    static_assert(ChangedElement::AllInstances == gpu::EVERY_INSTANCE);
+    if (const ObjectId* id = std::get_if<ObjectId>(&element.element))
+        keys.push_back({uint32_t(*id), element.instance});
+    else if (const MaterialId* material = std::get_if<MaterialId>(&element.element))
+        forObjectsShowing(*material, [&](ObjectId object, const Entry&) {
+            keys.push_back({uint32_t(object), gpu::EVERY_INSTANCE});
+        });
 }
 
 void ObjectTable::updateBounds(Entry& entry, const TriangleMesh& mesh) {

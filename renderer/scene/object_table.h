@@ -10,6 +10,7 @@
 #include "renderer/scene/geometry_table.h"
 #include "renderer/scene/world_box.h"
 #include "renderer/shading/materials.h"
+#include "shaders/shared/hipr.h"
 
 namespace hipr {
 
@@ -38,6 +39,8 @@ public:
     /// Where the element of a changed set is, once committed: an object's instance, or all that show a
     /// material.
     void addOccupied(const ChangedElement& element, std::vector<WorldBox>& regions) const;
+    /// Adds the instances that the element of a changed set is, or in which it shows.
+    void addKeys(const ChangedElement& element, std::vector<gpu::ElementKey>& keys) const;
     /// Fills instances, materialIndices, instanceCount, bounds and SCENE_HAS_NON_OPAQUE.
     void describe(gpu::SceneRecord& scene) const;
 
@@ -74,6 +77,7 @@ private:
     void vacate(const Entry& entry, uint32_t instance = ChangedElement::AllInstances);
     WorldBox placedBox(const Entry& entry, uint32_t record) const;
     WorldBox instanceBox(const Entry& entry, uint32_t instance) const;
+    template <class Visitor> void forObjectsShowing(MaterialId material, Visitor&& visit) const;
 
     Device& _device;
     NameTable& _names;

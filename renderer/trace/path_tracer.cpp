@@ -9,6 +9,8 @@ namespace {
 constexpr uint32_t RoundsPerLook = 8;
 /// The same for the steps of shadow rays through transparent surfaces.
 constexpr uint32_t StepsPerLook = 16;
+/// Every device takes 65,535 workgroups.
+constexpr uint32_t PixelsPerDispatch = 65535 * gpu::TRACE_GROUP_SIZE;
 
 constexpr uint32_t bit(uint32_t queue) {
     return 1u << queue;
@@ -42,14 +44,21 @@ void PathTracer::prepare(Steps& steps, uint32_t close, uint32_t clear) {
     steps.run("prepare", [this, p](VkCommandBuffer cmd) { kernel(KernelId::Prepare).dispatch(cmd, &p, 1); });
 }
 
-void PathTracer::dispatchQueue(Steps& steps, const char* name, KernelId id, uint32_t queue, uint32_t turn) {
+void PathTracer::dispatchQueue(Steps& steps, const char* name, const Kernel& kernel, uint32_t queue,
+                               uint32_t turn, uint32_t first) {
     gpu::TraceKernelPush p = push();
     p.turn = turn;
-    steps.run(name, [this, p, id, queue](VkCommandBuffer cmd) {
-        kernel(id).dispatchIndirect(cmd, &p, _buffers.headers,
-                                    WavefrontBuffers::headerOffset(queue) +
-                                        offsetof(gpu::QueueHeader, groupsX));
+    p.first = first;
+    steps.run(name, [this, p, &kernel, queue](VkCommandBuffer cmd) {
+        kernel.dispatchIndirect(cmd, &p, _buffers.headers,
+                                WavefrontBuffers::headerOffset(queue) + offsetof(gpu::QueueHeader, groupsX));
     });
+}
+
+void PathTracer::discover(Steps& steps, const char* name, const Discovering& discovery, DiscoveryKernelId id,
+                          uint32_t queue, uint32_t turn) {
+    if (discovery.passes)
+        dispatchQueue(steps, name, discovery.passes->kernel(id), queue + turn, turn, discovery.scouts);
 }
 
 uint32_t PathTracer::queueCount(uint32_t queue) {
@@ -73,7 +82,7 @@ void PathTracer::raygen(Steps& steps, const std::vector<gpu::TileWork>& tiles, u
 /// Adds the light of shadow rays that arrive.
 void PathTracer::resolveShadows(Steps& steps, uint32_t turn) {
     steps.occluded("trace shadow", _buffers.shadowQueue(turn));
-    dispatchQueue(steps, "shadow", KernelId::Shadow, gpu::QUEUE_SHADOW + turn, turn);
+    dispatchQueue(steps, "shadow", kernel(KernelId::Shadow), gpu::QUEUE_SHADOW + turn, turn);
     if (!_nonOpaque) return;
     for (uint32_t i = 0; i < gpu::SHADOW_PASS_LIMIT; ++i) {
         const uint32_t queue = gpu::QUEUE_TRANSMIT + i % 2, other = gpu::QUEUE_TRANSMIT + (i + 1) % 2;
@@ -83,14 +92,14 @@ void PathTracer::resolveShadows(Steps& steps, uint32_t turn) {
             if (queueCount(queue) == 0) break;
         }
         steps.nearest("trace transmit", _buffers.transmitQueue(i % 2));
-        dispatchQueue(steps, "transmit", KernelId::Transmit, queue, i % 2);
+        dispatchQueue(steps, "transmit", kernel(KernelId::Transmit), queue, i % 2);
     }
     prepare(steps, 0, bit(gpu::QUEUE_TRANSMIT) | bit(gpu::QUEUE_TRANSMIT + 1));
 }
 
 /// Takes the paths of the work from the camera to their ends.
 bool PathTracer::tracePaths(Steps& steps, const std::vector<gpu::TileWork>& work, uint32_t paths,
-                            const std::atomic<bool>& cancel) {
+                            const std::atomic<bool>& cancel, const Discovering& discovery) {
     _device.upload(_buffers.tiles, work.data(), work.size() * sizeof(gpu::TileWork));
     raygen(steps, work, paths);
     for (uint32_t round = 0;; ++round) {
@@ -98,9 +107,11 @@ bool PathTracer::tracePaths(Steps& steps, const std::vector<gpu::TileWork>& work
         if (cancel) return false;
         steps.nearest("trace rays", _buffers.rayQueue(turn));
         if (round > 0) resolveShadows(steps, other);
-        dispatchQueue(steps, "shade", KernelId::Shade, gpu::QUEUE_RAYS + turn, turn);
+        discover(steps, "discover", discovery, DiscoveryKernelId::Discover, gpu::QUEUE_RAYS, turn);
+        dispatchQueue(steps, "shade", kernel(KernelId::Shade), gpu::QUEUE_RAYS + turn, turn);
         prepare(steps, bit(gpu::QUEUE_RAYS + other) | bit(gpu::QUEUE_SHADOW + turn),
                 bit(gpu::QUEUE_RAYS + turn) | bit(gpu::QUEUE_SHADOW + other));
+        discover(steps, "discover shadows", discovery, DiscoveryKernelId::Shadows, gpu::QUEUE_SHADOW, turn);
         if (!steps.onHost() && round % RoundsPerLook != RoundsPerLook - 1) continue;
         steps.flush();
         if (queueCount(gpu::QUEUE_RAYS + other) == 0 && queueCount(gpu::QUEUE_SHADOW + turn) == 0) break;
@@ -109,9 +120,14 @@ bool PathTracer::tracePaths(Steps& steps, const std::vector<gpu::TileWork>& work
 }
 
 bool PathTracer::trace(Traversal& traversal, const std::vector<gpu::TileWork>& tiles, uint32_t paths,
-                       const std::atomic<bool>& cancel) {
+                       const std::atomic<bool>& cancel, DiscoveryPasses* discovery,
+                       std::vector<gpu::TileChange>* changes) {
+    if (changes) {
+        changes->assign(tiles.size(), {});
+        _device.upload(_buffers.tileChanges, changes->data(), changes->size() * sizeof(gpu::TileChange));
+    }
     Steps steps(_device, traversal, _scene, _profile);
-    if (!tracePaths(steps, tiles, paths, cancel)) return false;
+    if (!tracePaths(steps, tiles, paths, cancel, {discovery, false})) return false;
     uint32_t pixels = 0; // of the largest tile
     for (const gpu::TileWork& tile : tiles)
         pixels = std::max(pixels, tile.width * tile.height);
@@ -119,13 +135,16 @@ bool PathTracer::trace(Traversal& traversal, const std::vector<gpu::TileWork>& t
         kernel(KernelId::Resolve).dispatch(cmd, &p, groupsOf(pixels), count);
     });
     steps.flush();
+    if (changes)
+        _device.download(_buffers.tileChanges, changes->data(), changes->size() * sizeof(gpu::TileChange));
     return true;
 }
 
 bool PathTracer::scout(Traversal& traversal, const std::vector<gpu::TileWork>& work, uint32_t paths,
-                       const std::atomic<bool>& cancel, std::vector<gpu::ScoutResult>& results) {
+                       const std::atomic<bool>& cancel, std::vector<gpu::ScoutResult>& results,
+                       DiscoveryPasses* discovery) {
     Steps steps(_device, traversal, _scene, _profile);
-    if (!tracePaths(steps, work, paths, cancel)) return false;
+    if (!tracePaths(steps, work, paths, cancel, {discovery, true})) return false;
     gpu::TraceKernelPush p = push();
     p.count = paths;
     steps.run("scout", [this, p](VkCommandBuffer cmd) {
@@ -151,12 +170,22 @@ bool PathTracer::findFirstHits(Traversal& traversal, uint32_t first, uint32_t co
         const uint32_t turn = round % 2, other = 1 - turn;
         if (cancel) return false;
         steps.nearest("trace first hits", _buffers.rayQueue(turn));
-        dispatchQueue(steps, "visibility", KernelId::Visibility, gpu::QUEUE_RAYS + turn, turn);
+        dispatchQueue(steps, "visibility", kernel(KernelId::Visibility), gpu::QUEUE_RAYS + turn, turn);
         prepare(steps, bit(gpu::QUEUE_RAYS + other), bit(gpu::QUEUE_RAYS + turn));
         steps.flush();
         if (queueCount(gpu::QUEUE_RAYS + other) == 0) break;
     }
     return true;
+}
+
+void PathTracer::findActive(DiscoveryPasses& discovery, uint32_t pixels) {
+    _device.run([&](VkCommandBuffer cmd) {
+        gpu::TraceKernelPush p = push();
+        for (p.first = 0; p.first < pixels; p.first += p.count) { // the tiles add up, whatever the order
+            p.count = std::min(pixels - p.first, PixelsPerDispatch);
+            discovery.kernel(DiscoveryKernelId::Active).dispatch(cmd, &p, groupsOf(p.count));
+        }
+    });
 }
 
 gpu::TraceCounters PathTracer::takeCounters() {

@@ -9,6 +9,7 @@
 ///            -> shade                             collects light, scatters; fills the shadow queue and the
 ///            other
 ///            -> prepare                           ray queue; sizes the next dispatches
+///     With a discovery, its kernels run before and behind `shade` (renderer/trace/discovery_passes.h).
 ///     resolve                                     adds the samples of each pixel to the film, in order; or
 ///     scout                                       compares them with the picture on display (renderer/hipr)
 ///
@@ -34,6 +35,7 @@
 
 #include <atomic>
 
+#include "renderer/trace/discovery_passes.h"
 #include "renderer/trace/steps.h"
 #include "renderer/trace/trace_kernels.h"
 #include "renderer/trace/wavefront_buffers.h"
@@ -54,26 +56,42 @@ public:
     void setup(gpu::TraceRecord record, const gpu::CameraRecord& camera, bool sceneHasNonOpaque);
 
     /// Renders the tiles and adds them to the film. False when `cancel` was seen: then the film is as before.
+    /// `discovery`, if any, gets the weights of this batch.
+    /// `changes`: if not null, what the tiles' sample 0 changed, one entry a tile (TraceRecord::changeScale must
+    /// be above 0).
     bool trace(Traversal& traversal, const std::vector<gpu::TileWork>& tiles, uint32_t paths,
-               const std::atomic<bool>& cancel);
+               const std::atomic<bool>& cancel, DiscoveryPasses* discovery = nullptr,
+               std::vector<gpu::TileChange>* changes = nullptr);
 
     /// Traces the work's samples (sample 0 of their pixels) and compares them with the picture on display, which
     /// stays as it is. `results`: one a path, in the order of the slots. False when `cancel` was seen.
     bool scout(Traversal& traversal, const std::vector<gpu::TileWork>& work, uint32_t paths,
-               const std::atomic<bool>& cancel, std::vector<gpu::ScoutResult>& results);
+               const std::atomic<bool>& cancel, std::vector<gpu::ScoutResult>& results,
+               DiscoveryPasses* discovery = nullptr);
 
     /// Finds the first hits of pixels [first, first + count), count <= capacity, and stores their AOVs.
     bool findFirstHits(Traversal& traversal, uint32_t first, uint32_t count, const std::atomic<bool>& cancel);
+
+    /// Finds the tiles in which something that changed is seen, or was; needs the first hits of all pixels.
+    void findActive(DiscoveryPasses& discovery, uint32_t pixels);
 
     /// Counts since the last call.
     gpu::TraceCounters takeCounters();
 
 private:
+    /// The discovery of a batch.
+    struct Discovering {
+        DiscoveryPasses* passes;
+        bool scouts;
+    };
     bool tracePaths(Steps& steps, const std::vector<gpu::TileWork>& work, uint32_t paths,
-                    const std::atomic<bool>& cancel);
+                    const std::atomic<bool>& cancel, const Discovering& discovery);
     void raygen(Steps& steps, const std::vector<gpu::TileWork>& tiles, uint32_t paths);
     void prepare(Steps& steps, uint32_t close, uint32_t clear);
-    void dispatchQueue(Steps& steps, const char* name, KernelId id, uint32_t queue, uint32_t turn);
+    void dispatchQueue(Steps& steps, const char* name, const Kernel& kernel, uint32_t queue, uint32_t turn,
+                       uint32_t first = 0);
+    void discover(Steps& steps, const char* name, const Discovering& discovery, DiscoveryKernelId id,
+                  uint32_t queue, uint32_t turn);
     void resolveShadows(Steps& steps, uint32_t turn);
     const Kernel& kernel(KernelId id) { return _kernels.get(size_t(id)); }
     uint32_t queueCount(uint32_t queue);

@@ -3,7 +3,6 @@
 #include <iostream>
 #include <iterator>
 
-#include "renderer/hipr/footprint.h"
 #include "renderer/hipr/tile_aovs.h"
 #include "renderer/scene/camera.h"
 #include "renderer/trace/renderer_impl.h"
@@ -45,11 +44,16 @@ bool samePicture(const Settings& a, const Settings& b) {
     c.tileSize = b.tileSize;
     c.scoutRate = b.scoutRate;
     c.floorShare = b.floorShare;
+    c.eps = b.eps;
+    c.weightSpecular = b.weightSpecular;
+    c.weightGlossy = b.weightGlossy;
+    c.weightDiffuse = b.weightDiffuse;
+    c.weightTransmission = b.weightTransmission;
+    c.weightDirect = b.weightDirect;
+    c.weightIndirect = b.weightIndirect;
+    c.weightCaustic = b.weightCaustic;
     return c == b;
 }
-
-/// Share of the tiles beyond which an edit shows nearly everywhere.
-constexpr double WideEdit = 0.5;
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -71,7 +75,7 @@ RendererImpl::RendererImpl(std::unique_ptr<Device> device, const RendererOptions
     : _device(std::move(device)), _internals(internals), _scene(*_device, options.assets),
       _film(*_device, _scene.names()),
       _tracer(*_device, std::max(batchCapacity(_device->info()), internals.batchPaths)),
-      _batch(_tracer.capacity()) {
+      _edits(*_device, _scene, _film, _tracer, _schedule, _log), _batch(_tracer.capacity()) {
     selectTraversal();
     _scene.commit();
 }
@@ -134,7 +138,7 @@ ChangedSet RendererImpl::commit(SceneEdit& edit) {
         _scene.addOccupied(changed, regions);
         const bool camera = anyCamera(changed);
         restart(camera ? Cause::Camera : Cause::Edit);
-        if (!camera) startSurvey(regions);
+        if (!camera) startSearch(changed, regions);
         return true;
     });
     return changed;
@@ -153,7 +157,10 @@ ChangedSet RendererImpl::setFilm(const FilmDesc& film) {
 ChangedSet RendererImpl::setSettings(const Settings& settings) {
     const bool changed = guarded([&] {
         const bool same = samePicture(_settings, settings);
+        if (settings.mode != _settings.mode) _edits.stop();
         _settings = settings;
+        _edits.prepare(settings);
+        if (_film.keepHits(EditScheduler::discovers(settings))) _firstHitsDone = 0;
         const std::string traversal = _traversalInUse;
         selectTraversal();
         const bool options = _scene.setOptions(
@@ -188,7 +195,7 @@ void RendererImpl::restart(Cause cause) {
         _schedule.invalidate();
     if (cause != Cause::Edit) _schedule.forgetPriorities();
     _schedule.setFloor(_settings.floorShare);
-    _surveying = false;
+    retireHits(cause);
     _setupPending = true;
     _restarted = Clock::now();
     _firstHitsDone = _film.wantsFirstHits() ? 0 : _film.pixels();
@@ -201,15 +208,22 @@ void RendererImpl::restart(Cause cause) {
     _progress.pictureShown = _schedule.everythingShown();
 }
 
+/// What was seen and what had changed before an edit stay of interest until discovery has looked at them.
+void RendererImpl::retireHits(Cause cause) {
+    if (cause == Cause::Edit) {
+        _edits.interrupt();
+        if (firstHitsDone()) _film.retireHits();
+    } else {
+        _edits.stop();
+        _film.dropPreviousHits();
+    }
+}
+
 /// Looks for the tiles in which an edit shows. `regions`: where objects that changed were and are.
-void RendererImpl::startSurvey(const std::vector<WorldBox>& regions) {
-    if (_settings.mode == "uniform" || !_schedule.everythingShown() || !_scene.camera()) return;
-    const std::optional<gpu::CameraRecord> camera = cameraRecord(*_scene.camera());
-    if (!camera) return;
-    _survey.begin(_schedule.grid(), _settings.scoutRate, ++_edits);
-    for (const WorldBox& region : regions)
-        forTilesSeeing(_schedule.grid(), *camera, region, [&](uint32_t tile) { _survey.suspect(tile); });
-    _surveying = true;
+void RendererImpl::startSearch(const ChangedSet& changed, const std::vector<WorldBox>& regions) {
+    if (!_scene.camera()) return;
+    if (const std::optional<gpu::CameraRecord> camera = cameraRecord(*_scene.camera()))
+        _edits.start(_settings, *camera, changed, regions);
 }
 
 /// Tells the path tracer what to render. False: there is nothing to render.
@@ -231,6 +245,8 @@ bool RendererImpl::setup() {
     record.filterWidth = _settings.filterWidth;
     record.fireflyClamp = _settings.fireflyClamp;
     record.seed = uint32_t(_settings.seed);
+    record.discovery = _edits.address();
+    record.changeScale = _edits.changeScale();
     _tracer.setup(record, *camera, _scene.hasNonOpaque());
     _setupPending = false;
     return true;
@@ -242,36 +258,25 @@ bool RendererImpl::renderBatch() {
         if (!setup()) return finish(), false;
         // Compiling may take seconds; the host stays in charge meanwhile.
         if (!_tracer.ready(std::chrono::milliseconds(50))) return true;
-        if (_surveying) return survey();
-        const bool firstHits = _firstHitsDone < _film.pixels() && _schedule.discoveredRefreshed();
+        if (!_edits.ready(std::chrono::milliseconds(50))) return true;
+        if (_edits.wantsFirstHits() && !firstHitsDone()) return renderFirstHits();
+        if (_edits.searching()) return search();
+        const bool sampled = _schedule.samplesDone() >= uint32_t(_settings.samples);
+        const bool firstHits = !firstHitsDone() && (sampled || _schedule.discoveredRefreshed());
         return firstHits ? renderFirstHits() : renderSamples();
     });
 }
 
-/// A batch of scouts; the last one puts the tiles in order.
-bool RendererImpl::survey() {
+/// Looks further for the tiles in which an edit shows.
+bool RendererImpl::search() {
     const auto start = Clock::now();
-    const std::vector<gpu::TileWork>& work = _survey.next(batchPaths());
-    const uint32_t paths = _survey.pathCount();
-    if (!work.empty()) {
-        if (!_tracer.scout(_scene.traversal(), work, paths, _cancel, _scoutResults)) return false;
-        _survey.report(_scoutResults);
-        _log.survey(paths);
-    } else {
-        const std::vector<float> priorities = _survey.priorities();
-        for (uint32_t tile = 0; tile < priorities.size(); ++tile)
-            _schedule.discover(tile, priorities[tile]);
-        _schedule.sort(false);
-        if (_schedule.discoveredTiles() > WideEdit * _schedule.grid().count()) _schedule.sort(true);
-        _surveying = false;
-        _log.order(_schedule);
-    }
+    const bool done = _edits.search(batchPaths(), _cancel);
+    _setupPending |= !_edits.searching(); // what batches are to measure
     count(0, secondsSince(start));
     std::lock_guard<std::mutex> lock(_progressMutex);
-    _progress.scoutPaths = _survey.pathsTraced();
+    _progress.scoutPaths = _edits.scoutPaths();
     _progress.scheduleSeconds += secondsSince(start);
-    _progress.tilesDiscovered = _surveying ? 0 : _schedule.discoveredTiles();
-    return true;
+    return done;
 }
 
 bool RendererImpl::renderFirstHits() {
@@ -280,6 +285,9 @@ bool RendererImpl::renderFirstHits() {
     if (!_tracer.findFirstHits(_scene.traversal(), uint32_t(_firstHitsDone), pixels, _cancel)) return false;
     _firstHitsDone += pixels;
     count(0, secondsSince(start));
+    if (!_edits.wantsFirstHits()) return true;
+    std::lock_guard<std::mutex> lock(_progressMutex);
+    _progress.scheduleSeconds += secondsSince(start);
     return true;
 }
 
@@ -289,13 +297,17 @@ bool RendererImpl::renderSamples() {
     const std::vector<gpu::TileWork>& tiles = _schedule.next(batchPaths(), samples);
     const uint32_t paths = _schedule.pathCount();
     if (!tiles.empty()) {
-        if (!_tracer.trace(_scene.traversal(), tiles, paths, _cancel)) return false;
+        const bool done = _tracer.trace(_scene.traversal(), tiles, paths, _cancel, _edits.discovery(),
+                                        _edits.changes());
+        if (!done) return _edits.traced(false), false;
         _log.batch(tiles, paths);
+        _edits.measured(tiles);
         _schedule.advance();
+        _edits.traced(true);
         _batch.report(paths, secondsSince(start));
     }
     count(paths, secondsSince(start));
-    return _schedule.samplesDone() < samples;
+    return _schedule.samplesDone() < samples || !firstHitsDone();
 }
 
 void RendererImpl::count(uint32_t paths, double seconds) {
@@ -309,6 +321,7 @@ void RendererImpl::count(uint32_t paths, double seconds) {
     }
     std::lock_guard<std::mutex> lock(_progressMutex);
     _progress.samplesDone = _schedule.samplesDone();
+    _progress.tilesDiscovered = _edits.busy() ? 0 : _schedule.discoveredTiles();
     _progress.pathsTraced += paths;
     _progress.nearestRays += counters.nearestRays + counters.transmitRays;
     _progress.shadowRays += counters.shadowRays;
@@ -317,9 +330,9 @@ void RendererImpl::count(uint32_t paths, double seconds) {
     _progress.fraction = double(_schedule.pathsDone()) /
                          std::max(1.0, double(_film.pixels()) * double(_progress.samplesTotal));
     _progress.pictureShown = _schedule.everythingShown();
-    _progress.firstHitsDone = _firstHitsDone >= _film.pixels();
+    _progress.firstHitsDone = firstHitsDone();
     if (paths && _progress.firstRevealSeconds == 0) _progress.firstRevealSeconds = secondsSince(_restarted);
-    _progress.converged = _progress.samplesDone >= _progress.samplesTotal;
+    _progress.converged = _progress.samplesDone >= _progress.samplesTotal && firstHitsDone();
 }
 
 Progress RendererImpl::progress() const {
@@ -329,7 +342,7 @@ Progress RendererImpl::progress() const {
 
 bool RendererImpl::readAov(const AovRequest& aov, void* dst, size_t words) {
     return guarded([&] {
-        if (!isTileAov(aov.kind)) return _film.read(aov, dst, words);
+        if (!isTileAov(aov.kind)) return _film.read(aov, _schedule, dst, words);
         if (!_film.holds(aov) || words != _film.pixels()) return false;
         fillTileAov(aov.kind, _schedule, static_cast<uint32_t*>(dst));
         return true;

@@ -8,9 +8,9 @@
 #include "renderer/api/renderer.h"
 #include "renderer/hipr/schedule.h"
 #include "renderer/hipr/schedule_log.h"
-#include "renderer/hipr/survey.h"
 #include "renderer/scene/gpu_scene.h"
 #include "renderer/trace/batch_size.h"
+#include "renderer/trace/edit_scheduler.h"
 #include "renderer/trace/film.h"
 #include "renderer/trace/path_tracer.h"
 
@@ -49,12 +49,14 @@ private:
     void fail(const char* reason);
     void finish();
     void restart(Cause cause);
-    void startSurvey(const std::vector<WorldBox>& regions);
+    void retireHits(Cause cause);
+    void startSearch(const ChangedSet& changed, const std::vector<WorldBox>& regions);
     uint32_t tileSize() const;
     bool setup();
     void selectTraversal();
-    bool survey();
+    bool search();
     bool renderFirstHits();
+    bool firstHitsDone() const { return _firstHitsDone >= _film.pixels(); }
     bool renderSamples();
     uint32_t batchPaths() const { return _internals.batchPaths ? _internals.batchPaths : _batch.paths(); }
     void count(uint32_t paths, double seconds);
@@ -66,14 +68,11 @@ private:
     GpuScene _scene;
     FilmBuffers _film;
     TileSchedule _schedule;
-    Survey _survey;
     ScheduleLog _log;
     PathTracer _tracer;
+    EditScheduler _edits;
     BatchSize _batch;
-    std::vector<gpu::ScoutResult> _scoutResults;
     bool _failed = false, _setupPending = true, _nonFiniteReported = false, _cameraReported = false;
-    bool _surveying = false;
-    uint32_t _edits = 0;
     Clock::time_point _restarted;
     uint64_t _firstHitsDone = 0; ///< pixels
     mutable std::mutex _progressMutex;

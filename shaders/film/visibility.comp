@@ -77,7 +77,13 @@ void main() {
     }
     const CameraRecord camera = CameraRef(trace.camera).v;
     const float depth = seen ? hit.t * dot(ray.direction, camera.forward) : 0.0;
-    VisibilityRef(trace.visibility).v[pixel] = VisibilityRecord(hit.instance, hit.primitive, hit.u, hit.v, depth);
+    uint object = 0u, objectInstance = 0u;
+    if (seen) {
+        object = InstanceRef(scene.instances).v[hit.instance].object;
+        objectInstance = InstanceRef(scene.instances).v[hit.instance].objectInstance;
+    }
+    VisibilityRef(trace.visibility).v[pixel] =
+        VisibilityRecord(hit.instance, hit.primitive, hit.u, hit.v, depth, object, objectInstance);
     if (trace.aovCount == 0u) return;
     ShadingPoint point;
     Surface surface;

@@ -53,6 +53,8 @@ struct InstanceRecord {
     uint object;             // ObjectId value, for HiPR's changed set
     uint primvarCount;
     uint64_t primvars;       // PrimvarRecord[primvarCount], constant, override the geometry's
+    uint objectInstance;     // which of the object's instances: index into InstancesDesc::transforms
+    uint pad;
 };
 
 // A ray as the trace queues hold it. tMin is 0: origins are offset off their surface.

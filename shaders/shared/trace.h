@@ -12,7 +12,9 @@ struct TileWork {
     uint sampleCount;
     uint firstSlot;
     uint stride;             // distance of the lattice's pixels; 1: a rectangle of the film
+    uint flags;              // TILE_*
 };
+HIPR_CONST uint TILE_SAVES_OLD = 1u; // the mean on display goes to TraceRecord::oldPicture before sample 0 replaces it
 
 // Pinhole or orthographic, from matrices. The ray through NDC (x, y) has
 //   direction = normalize(direction + x * directionX + y * directionY),
@@ -39,6 +41,8 @@ struct VisibilityRecord {
     uint primitive;
     float u, v;
     float cameraDepth;       // depth, see CameraRecord
+    uint object;             // ObjectId value; 0: nothing. With the next field, what is seen whatever the order of instances
+    uint objectInstance;     // index into InstancesDesc::transforms
 };
 
 // One path between two kernels.
@@ -53,6 +57,7 @@ struct PathState {
     float alpha;
     uint pixel;              // x + y * 65536
     uint sampleIndex;
+    uint history;            // how it scattered so far: HISTORY_* in hipr.h
 };
 
 // What a shadow ray carries if it arrives.
@@ -134,9 +139,11 @@ struct TraceRecord {
     uint64_t transmitHits;
     uint64_t film;           // FilmPixel[]
     uint64_t visibility;     // VisibilityRecord[]
+    uint64_t oldPicture;     // OldPixel[]
     uint64_t firstSamples;   // vec3[]: radiance of each pixel's sample 0 in the picture on display
     uint64_t scoutResults;   // ScoutResult[]
     uint64_t aovs;           // AovTarget[aovCount]
+    uint64_t discovery;      // DiscoveryRecord (hipr.h), or 0
     uint aovCount;
     uint width, height;      // film
     uint maxDepth;
@@ -152,8 +159,9 @@ struct TraceRecord {
 struct TraceKernelPush {
     uint64_t record;         // TraceRecord
     uint turn;               // which of two queues is read
-    uint first;              // visibility: first pixel; prepare: headers to close (bits 0..7), to clear (bits 8..15)
-    uint count;              // raygen, visibility, scout: rays or paths
+    uint first;              // visibility, active: first pixel; prepare: headers to close (bits 0..7), to clear (bits
+                             // 8..15); discover: 1 for scouts
+    uint count;              // raygen, visibility, scout, active: rays, paths or pixels
     uint pad;
 };
 

@@ -27,6 +27,7 @@ void main() {
     path.alpha = 0.0;
     path.pixel = pixel.x | pixel.y << 16;
     path.sampleIndex = tile.firstSample + local % tile.sampleCount;
+    path.history = 0u;
 
     const vec4 u = sobol4(pixel, path.sampleIndex, 0u, trace.seed);
     const vec2 film = vec2(pixel) + 0.5 + sampleFilter(trace.pixelFilter, trace.filterWidth, u.xy);

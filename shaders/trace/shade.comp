@@ -9,6 +9,7 @@
 #include "material/bsdf.glsl"
 #include "light/sample.glsl"
 #include "light/hit.glsl"
+#include "shared/hipr.h"
 
 // Random vectors of one event; raygen has set 0.
 const uint RANDOM_LIGHT = 1u; // w, which light sampling leaves alone, decides on passing through and on roulette
@@ -24,13 +25,14 @@ struct Path {
     uint depth;
     uvec2 pixel;
     uint sampleIndex;
+    uint history;
 };
 
 Path loadPath(TraceRecord trace, uint slot) {
     PathRef paths = PathRef(trace.paths);
     const uint pixel = paths.v[slot].pixel;
     return Path(slot, paths.v[slot].throughput, paths.v[slot].bsdfPdf, paths.v[slot].event, paths.v[slot].depth,
-                uvec2(pixel & 0xffffu, pixel >> 16), paths.v[slot].sampleIndex);
+                uvec2(pixel & 0xffffu, pixel >> 16), paths.v[slot].sampleIndex, paths.v[slot].history);
 }
 
 void storePath(TraceRecord trace, Path path) {
@@ -39,6 +41,7 @@ void storePath(TraceRecord trace, Path path) {
     paths.v[path.slot].bsdfPdf = path.bsdfPdf;
     paths.v[path.slot].event = path.event;
     paths.v[path.slot].depth = path.depth;
+    paths.v[path.slot].history = path.history;
 }
 
 vec4 randomVector(TraceRecord trace, Path path, uint which) {
@@ -64,6 +67,14 @@ void sampleDirectLight(TraceRecord trace, SceneRecord scene, Path path, Surface 
         ShadowWork(contribution, path.depth > 0u ? path.slot | SHADOW_INDIRECT : path.slot);
 }
 
+// What kind of scattering a lobe (LOBE_*) did towards `wi`, for discovery.
+uint scatterKind(Surface surface, uint lobe, vec3 wi) {
+    if (lobe == LOBE_DIFFUSE) return SCATTER_DIFFUSE;
+    if (lobe == LOBE_GLASS && dot(surface.ng, wi) < 0.0) return SCATTER_TRANSMISSION;
+    const float roughness = lobe == LOBE_COAT ? surface.coatRoughness : surface.roughness;
+    return roughness < SPECULAR_ROUGHNESS ? SCATTER_SPECULAR : SCATTER_GLOSSY;
+}
+
 // Samples the next direction. False: the path ends here.
 bool bounce(TraceRecord trace, inout Path path, inout Ray ray, Surface surface, vec3 wo, float roulette) {
     vec3 wi, weight;
@@ -72,6 +83,7 @@ bool bounce(TraceRecord trace, inout Path path, inout Ray ray, Surface surface, 
     if (!sampleBsdf(surface, wo, randomVector(trace, path, RANDOM_BSDF), wi, weight, pdf, lobe)) return false;
     path.throughput *= weight;
     path.bsdfPdf = pdf;
+    path.history = extendHistory(path.history, scatterKind(surface, lobe, wi), path.depth);
     ++path.depth;
     ++path.event;
     if (path.depth >= trace.rouletteDepth) {
