@@ -1,20 +1,19 @@
 #include "renderer/hipr/survey.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace hipr {
 namespace {
 
-constexpr uint32_t Rounds = 2;
-constexpr uint32_t SuspectLattice = 2; ///< further scouts a side of a suspected tile
-/// Where more of the picture is suspected than this, the lattice finds the edit by itself.
-constexpr double ManySuspects = 0.1;
+constexpr uint32_t Rounds = 4;        ///< the first included
+constexpr uint32_t TileLattice = 2;   ///< scouts a side that a later round adds to a tile
+constexpr uint32_t EnoughScouts = 16; ///< a tile
+/// Edits that show in more of the picture than this are not looked at more closely.
+constexpr double WideEdit = 0.4;
 /// Brightest change that counts, in mean radiances: one lucky path must not make a tile the most important.
 constexpr float BrightestChange = 16.f;
-/// Least change of a tile that counts, in mean radiances.
-constexpr float LeastChange = 0.002f;
+/// What an unchanged neighbour of a changed tile is taken for, as a share of that tile's change.
+constexpr float NeighbourShare = 0.02f;
 
 /// Points that fill the unit square evenly in any number: M. Roberts, "The Unreasonable Effectiveness of
 /// Quasirandom Sequences", 2018 (R2).
@@ -42,6 +41,10 @@ void Survey::suspect(uint32_t tile) {
     _tiles[tile].suspected = true;
 }
 
+void Survey::settle(uint32_t tile) {
+    _tiles[tile].settled = true;
+}
+
 void Survey::append(const gpu::TileWork& work) {
     if (work.width && work.height) _planned.push_back(work);
 }
@@ -52,19 +55,30 @@ void Survey::planLattice() {
     const uint32_t columns = latticeSize(x, _grid.width, _stride),
                    rows = latticeSize(y, _grid.height, _stride);
     for (uint32_t row = 0; row < rows; ++row)
-        append({x, y + row * _stride, columns, 1, 0, 1, 0, _stride, 0});
+        append({x, y + row * _stride, columns, 1, 0, 1, 0, _stride});
 }
 
-void Survey::planSuspects() {
-    const auto suspects = std::count_if(_tiles.begin(), _tiles.end(), [](const Tile& tile) { return tile.suspected; });
-    if (double(suspects) > ManySuspects * double(_tiles.size())) return;
-    const uint32_t stride = std::max(1u, _grid.tileSize / SuspectLattice);
-    const uint32_t shiftX = spread(_turn, 1, stride), shiftY = spread(_turn, 0, stride);
+bool Survey::wanted(uint32_t index) const {
+    const Tile& tile = _tiles[index];
+    if (tile.settled || tile.scouts >= EnoughScouts || tile.scouts >= _grid.pixels(index)) return false;
+    bool close = tile.suspected || tile.changed;
+    forNeighbours(_grid, index, [&](uint32_t neighbour) { close |= _tiles[neighbour].changed > 0; });
+    return close;
+}
+
+void Survey::planTiles() {
+    uint32_t changed = 0;
+    for (const Tile& tile : _tiles)
+        changed += tile.changed || tile.suspected;
+    if (changed > WideEdit * _tiles.size()) return;
+    const uint32_t stride = std::max(1u, _grid.tileSize / TileLattice);
     for (uint32_t index = 0; index < _tiles.size(); ++index) {
-        if (!_tiles[index].suspected) continue;
+        if (!wanted(index)) continue;
         const TileRect r = _grid.rect(index);
-        const uint32_t x = r.x + shiftX, y = r.y + shiftY;
-        append({x, y, latticeSize(x, r.x + r.width, stride), latticeSize(y, r.y + r.height, stride), 0, 1, 0, stride, 0});
+        const uint32_t x = r.x + spread(_turn + 7 * _round, 0, stride),
+                       y = r.y + spread(_turn + 7 * _round, 1, stride);
+        append({x, y, latticeSize(x, r.x + r.width, stride), latticeSize(y, r.y + r.height, stride), 0, 1, 0,
+                stride});
     }
 }
 
@@ -74,7 +88,7 @@ void Survey::planRound() {
     if (_round == 0)
         planLattice();
     else
-        planSuspects();
+        planTiles();
     ++_round;
 }
 
@@ -105,31 +119,26 @@ void Survey::report(const std::vector<gpu::ScoutResult>& results) {
     _work.clear();
 }
 
-float Survey::meanRadiance() const {
-    double sum = 0;
-    for (const gpu::ScoutResult& result : _results)
-        sum += result.radiance;
-    return _results.empty() ? 0.f : float(sum / double(_results.size()));
-}
-
 std::vector<float> Survey::priorities() const {
-    const float mean = meanRadiance();
-    const float brightest = mean > 0 ? BrightestChange * mean : std::numeric_limits<float>::max();
+    double radiance = 0;
+    for (const gpu::ScoutResult& result : _results)
+        radiance += result.radiance;
+    const float brightest = radiance > 0 ? BrightestChange * float(radiance / double(_results.size()))
+                                         : std::numeric_limits<float>::max();
     std::vector<float> sums(_tiles.size());
     for (const gpu::ScoutResult& result : _results)
         sums[_grid.at(result.pixel & 0xffff, result.pixel >> 16)] += std::min(result.change, brightest);
 
-    // The few scouts of a tile are noisy, and changes are wider than tiles: those of its surroundings count too.
+    // Half a tile's own mean, half that of its surroundings: few scouts are noisy.
     std::vector<float> priorities(_tiles.size());
     for (uint32_t tile = 0; tile < _tiles.size(); ++tile) {
-        const uint32_t row = tile / _grid.columns, column = tile % _grid.columns;
-        float sum = 4.f * sums[tile], scouts = 4.f * float(_tiles[tile].scouts);
+        float sum = sums[tile], scouts = float(_tiles[tile].scouts), largest = 0.f;
+        const float own = scouts > 0.f ? sum / scouts : 0.f;
         forNeighbours(_grid, tile, [&](uint32_t n) {
-            const float weight = n / _grid.columns == row || n % _grid.columns == column ? 2.f : 1.f;
-            sum += weight * sums[n], scouts += weight * float(_tiles[n].scouts);
+            sum += sums[n], scouts += float(_tiles[n].scouts);
+            if (_tiles[n].scouts) largest = std::max(largest, sums[n] / float(_tiles[n].scouts));
         });
-        const float change = scouts > 0.f ? sum / scouts : 0.f;
-        priorities[tile] = change > LeastChange * mean ? change : 0.f;
+        priorities[tile] = own > 0.f ? 0.5f * (own + sum / scouts) : NeighbourShare * largest;
     }
     return priorities;
 }

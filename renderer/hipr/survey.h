@@ -25,6 +25,8 @@ public:
     void begin(const TileGrid& grid, float rate, uint32_t turn);
     /// A tile in which something that changed is or was; looked at closely. Between begin() and next().
     void suspect(uint32_t tile);
+    /// A tile that needs no closer look: it will be rendered anyway. Between begin() and next().
+    void settle(uint32_t tile);
 
     /// The next scouts, about `maxPaths` of them at most. Empty when the survey is complete. Handed out again
     /// until report() brings their results, one a path, in the order of the slots.
@@ -43,17 +45,16 @@ public:
 
     /// How much the edit shows in each tile, 0: not at all as far as is known. The unit is radiance.
     std::vector<float> priorities() const;
-    /// Mean over the scouts and channels, of the edited scene.
-    float meanRadiance() const;
 
 private:
     struct Tile {
         uint32_t scouts = 0, changed = 0;
-        bool suspected = false;
+        bool suspected = false, settled = false;
     };
     void planRound();
     void planLattice();
-    void planSuspects();
+    void planTiles();
+    bool wanted(uint32_t tile) const;
     void append(const gpu::TileWork& work);
 
     TileGrid _grid;

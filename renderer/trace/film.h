@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "renderer/api/film.h"
-#include "renderer/hipr/schedule.h"
 #include "renderer/shading/names.h"
 #include "renderer/vulkan/device.h"
 #include "shaders/shared/scene.h"
@@ -43,7 +42,7 @@ public:
 
     bool holds(const AovRequest& aov) const;
     /// See Renderer::readAov(); for AOVs that are not of tiles (renderer/hipr/tile_aovs.h).
-    bool read(const AovRequest& aov, const TileSchedule& schedule, void* dst, size_t words) const;
+    bool read(const AovRequest& aov, void* dst, size_t words) const;
 
 private:
     struct FirstHitAov {
@@ -54,15 +53,14 @@ private:
     void allocate();
     void refuse(const std::string& reason);
     Buffer filled(uint64_t bytes, uint32_t word);
-    void readSums(AovKind kind, const TileSchedule& schedule, float* dst) const;
-    template <class T> const T* hostCopy(const Buffer& buffer, std::vector<T>& copy) const;
+    void readSums(AovKind kind, uint32_t* dst) const;
     void createHits();
 
     Device& _device;
     NameTable& _names;
     FilmDesc _desc; ///< as asked for
     uint32_t _width = 0, _height = 0;
-    Buffer _sums, _oldPicture, _firstSamples, _visibility, _previousHits, _targets;
+    Buffer _sums, _firstSamples, _visibility, _previousHits, _targets;
     bool _keepsHits = false, _hasPrevious = false;
     std::vector<FirstHitAov> _firstHits;
 };

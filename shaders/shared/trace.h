@@ -12,9 +12,7 @@ struct TileWork {
     uint sampleCount;
     uint firstSlot;
     uint stride;             // distance of the lattice's pixels; 1: a rectangle of the film
-    uint flags;              // TILE_*
 };
-HIPR_CONST uint TILE_SAVES_OLD = 1u; // the mean on display goes to TraceRecord::oldPicture before sample 0 replaces it
 
 // Pinhole or orthographic, from matrices. The ray through NDC (x, y) has
 //   direction = normalize(direction + x * directionX + y * directionY),
@@ -41,7 +39,7 @@ struct VisibilityRecord {
     uint primitive;
     float u, v;
     float cameraDepth;       // depth, see CameraRecord
-    uint object;             // ObjectId value; 0: nothing. With the next field, what is seen whatever the order of instances
+    uint object;             // ObjectId value, 0: nothing; this and the next field outlive edits, `instance` does not
     uint objectInstance;     // index into InstancesDesc::transforms
 };
 
@@ -139,7 +137,6 @@ struct TraceRecord {
     uint64_t transmitHits;
     uint64_t film;           // FilmPixel[]
     uint64_t visibility;     // VisibilityRecord[]
-    uint64_t oldPicture;     // OldPixel[]
     uint64_t firstSamples;   // vec3[]: radiance of each pixel's sample 0 in the picture on display
     uint64_t scoutResults;   // ScoutResult[]
     uint64_t aovs;           // AovTarget[aovCount]
