@@ -7,6 +7,7 @@
 
 #include <array>
 #include <atomic>
+#include <iosfwd>
 #include <memory>
 
 #include "renderer/api/film.h"
@@ -101,6 +102,11 @@ public:
     virtual bool readAov(const AovRequest& aov, void* dst, size_t words) = 0;
 
     virtual MemoryReport memory() const = 0;
+
+    /// Writes everything the renderer holds of the scene, sorted by name, one fact per line: objects with their
+    /// geometry, placements and materials, materials, lights, camera, settings. Ids, addresses and the order of edits
+    /// do not show: scenes that must render alike give the same text. To be called by the thread that commits.
+    virtual void dumpScene(std::ostream& out) const = 0;
 
 protected:
     std::atomic<bool> _cancel{false};

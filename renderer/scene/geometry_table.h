@@ -8,6 +8,7 @@
 #include "renderer/accel/traversal.h"
 #include "renderer/api/scene.h"
 #include "renderer/scene/buffer_pack.h"
+#include "renderer/scene/scene_dump.h"
 #include "renderer/shading/names.h"
 
 namespace hipr {
@@ -35,6 +36,7 @@ public:
     /// A new traversal has none of the geometries yet.
     void resubmit();
 
+    void dump(SceneDump& dump) const;
     void describe(gpu::SceneRecord& scene) const { scene.geometries = _records.address(); }
     /// Host memory of the meshes.
     uint64_t hostBytes() const;

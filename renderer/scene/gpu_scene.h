@@ -4,6 +4,7 @@
 
 #include <unordered_map>
 
+#include "renderer/api/settings.h"
 #include "renderer/scene/object_table.h"
 #include "renderer/shading/lights.h"
 #include "renderer/shading/materials.h"
@@ -48,6 +49,9 @@ public:
             _objects.addKeys(element, keys);
         return keys;
     }
+
+    /// Everything in the scene as text, by name: see SceneDump.
+    void dump(std::ostream& out, const Settings& settings) const;
 
     const std::optional<CameraDesc>& camera() const { return _camera; }
     NameTable& names() { return _names; }

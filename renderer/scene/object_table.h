@@ -43,6 +43,8 @@ public:
     void addKeys(const ChangedElement& element, std::vector<gpu::ElementKey>& keys) const;
     /// Fills instances, materialIndices, instanceCount, bounds and SCENE_HAS_NON_OPAQUE.
     void describe(gpu::SceneRecord& scene) const;
+    /// Every object with what it shows, as of the last commit.
+    void dump(SceneDump& dump, const GeometryTable& geometries, const MaterialNames& nameOf) const;
 
 private:
     /// Where an object's instances are and what they have in common.
@@ -65,6 +67,7 @@ private:
         bool fresh = false; ///< added since the last commit: what else is said of it is no change
     };
 
+    void dumpInstances(SceneDump::Element& out, const Entry& entry) const;
     const Geometry* shownGeometry(Entry& entry, const GeometryTable& geometries);
     Placement place(Entry& entry, const Geometry* geometry, const MaterialTable* materials, uint32_t first,
                     std::vector<uint32_t>& materialIndices);

@@ -170,6 +170,10 @@ uint32_t LightTable::count() const {
     return _impl->areaLights + _impl->infiniteLights;
 }
 
+bool LightTable::emits(LightId id) const {
+    return _impl->lights.count(id) > 0;
+}
+
 void LightTable::describe(gpu::SceneRecord& scene) const {
     scene.lights = _impl->records.address();
     scene.lightAlias = _impl->alias.address();

@@ -30,6 +30,8 @@ public:
 
     /// Lights in the table (those that emit).
     uint32_t count() const;
+    /// Whether the light emits, as far as its description tells.
+    bool emits(LightId id) const;
 
     /// Fills SceneRecord::lights, lightAlias, lightCount, areaLightCount and infiniteLightCount.
     void describe(gpu::SceneRecord& scene) const;

@@ -117,6 +117,13 @@ bool MaterialTable::nonOpaque(MaterialId id) const {
     return id != MaterialId::None && known != _impl->materials.end() && known->second.nonOpaque;
 }
 
+std::map<uint32_t, MaterialId> MaterialTable::indices() const {
+    std::map<uint32_t, MaterialId> result;
+    for (const auto& [id, material] : _impl->materials)
+        if (id != MaterialId::None) result[material.index] = id;
+    return result;
+}
+
 bool MaterialTable::emissive(MaterialId id) const {
     const auto known = _impl->materials.find(id);
     return known != _impl->materials.end() && isEmissive(known->second.inputs);

@@ -2,6 +2,7 @@
 /// MaterialDesc -> MaterialRecord and InputNode tables.
 #pragma once
 
+#include <map>
 #include <memory>
 
 #include "renderer/api/scene.h"
@@ -36,6 +37,8 @@ public:
     /// fallback look (None and unknown ids) false: there it is up to the object's displayOpacity primvar
     /// (below 1 somewhere: non-opaque).
     bool nonOpaque(MaterialId id) const;
+    /// Which material each record in use holds, but for the fallback look.
+    std::map<uint32_t, MaterialId> indices() const;
 
     /// Whether the material emits light.
     bool emissive(MaterialId id) const;

@@ -35,6 +35,7 @@ public:
     Progress progress() const override;
     bool readAov(const AovRequest& aov, void* dst, size_t words) override;
     MemoryReport memory() const override;
+    void dumpScene(std::ostream& out) const override { _scene.dump(out, _settings); }
 
     bool validation() const { return _device->validation(); }
     uint64_t validationErrors() const { return _device->validationErrors(); }

@@ -1,0 +1,84 @@
+// What the tables of the scene say of themselves.
+#include <algorithm>
+
+#include "renderer/scene/gpu_scene.h"
+#include "renderer/scene/scene_dump.h"
+
+namespace hipr {
+namespace {
+
+void dumpPrimvars(SceneDump::Element& out, const char* instance, std::vector<Primvar> primvars) {
+    std::sort(primvars.begin(), primvars.end(),
+              [](const Primvar& a, const Primvar& b) { return a.name < b.name; });
+    for (const Primvar& primvar : primvars)
+        out.fact(instance, "primvar", primvar.name, primvar.components, primvar.values.size(),
+                 contentHash(primvar.values), "indices", primvar.indices.size(),
+                 contentHash(primvar.indices));
+}
+
+} // namespace
+
+void GeometryTable::dump(SceneDump& dump) const {
+    for (const auto& [id, entry] : _entries)
+        dumpMesh(dump, *entry.mesh);
+}
+
+// The primId is left out: hosts number prims in the order in which they came.
+void ObjectTable::dump(SceneDump& dump, const GeometryTable& geometries, const MaterialNames& nameOf) const {
+    for (const auto& [id, entry] : _entries) {
+        SceneDump::Element& out = dump.element("object", entry.desc ? entry.desc->name : "");
+        out.fact("visible", entry.desc && entry.desc->visible);
+        out.fact("rendered", entry.placed.count > 0);
+        out.fact("nonOpaque", (entry.placed.flags & gpu::INSTANCE_NON_OPAQUE) != 0);
+        if (!entry.desc) continue;
+        const Geometry* geometry = geometries.find(entry.desc->geometry);
+        out.fact("geometry", geometry ? geometry->mesh->name : std::string());
+        for (uint32_t slot = 0; slot < entry.desc->materials.size(); ++slot)
+            out.fact("slot", slot, "bound", nameOf.byId(entry.desc->materials[slot]));
+        for (uint32_t slot = 0; slot < entry.placed.materialCount; ++slot)
+            out.fact("slot", slot, "shown",
+                     nameOf.byIndex(_materialIndices[entry.placed.firstMaterial + slot]));
+        if (entry.instances) dumpInstances(out, entry);
+    }
+}
+
+void ObjectTable::dumpInstances(SceneDump::Element& out, const Entry& entry) const {
+    const InstancesDesc& instances = *entry.instances;
+    out.fact("instances", instances.transforms.size());
+    dumpPrimvars(out, "instance", instances.primvars);
+    for (size_t i = 0; i < instances.transforms.size(); ++i) {
+        out.fact("instance", i, "transform", instances.transforms[i]);
+        out.fact("instance", i, "id", i < instances.instanceIds.size() ? instances.instanceIds[i] : int(i));
+    }
+    for (uint32_t i = 0; i < entry.placed.count; ++i) {
+        const gpu::InstanceRecord& record = _records[entry.placed.first + i];
+        out.fact("record", i, "instance", entry.usable[i], "id", record.instanceId, "transform",
+                 record.objectToWorld);
+    }
+}
+
+void GpuScene::dump(std::ostream& out, const Settings& settings) const {
+    SceneDump dump;
+    if (_camera) dumpCamera(dump, *_camera);
+    MaterialNames names;
+    names.indices = _materials.indices();
+    for (const auto& [id, desc] : _materialDescs) {
+        names.names[id] = desc.name;
+        dumpMaterial(dump, desc, _materials.nonOpaque(id));
+    }
+    for (const auto& [id, desc] : _lightDescs)
+        dumpLight(dump, desc, _lights.emits(id));
+    _geometries.dump(dump);
+    _objects.dump(dump, _geometries, names);
+    SceneDump::Element& options = dump.element("option", "scene");
+    options.fact("lights", _options.lights);
+    options.fact("materials", _options.materials);
+    options.fact("domeVisibleToCamera", _options.domeVisibleToCamera);
+    options.fact("emittingLights", _lights.count()); // a camera light included
+    for (const SettingInfo& info : settingTable())
+        std::visit([&](const auto& value) { dump.element("setting", info.name).fact(value); },
+                   readSetting(settings, info.name));
+    dump.write(out);
+}
+
+} // namespace hipr
