@@ -36,6 +36,12 @@ public:
     bool IsConverged() const override { return _converged.load(); }
     void setConverged(bool converged) { _converged.store(converged); }
 
+    /// Whether the host has brought the newest picture to itself with Resolve() or Map().
+    bool taken() const {
+        std::lock_guard<std::mutex> lock(_mutex);
+        return !_newer;
+    }
+
     /// Counts the calls of Allocate: the same buffer with another number is an empty one.
     unsigned int allocation() const { return _allocation; }
 

@@ -1,5 +1,6 @@
 #include "plugin/hdHipr/renderDelegate.h"
 
+#include <sstream>
 #include <sys/resource.h>
 
 #include "plugin/hdHipr/aov.h"
@@ -27,6 +28,8 @@ namespace {
 
 /// The device can be chosen only when a delegate is made.
 const char* const deviceKey = "hipr:device";
+const char* const everyBatchKey = "hipr:publishEveryBatch";
+const char* const sceneDumpKey = "hipr:sceneDump";
 
 hipr::RendererOptions rendererOptions(HdRenderSettingsMap const& settings) {
     hipr::RendererOptions options;
@@ -173,6 +176,12 @@ TfToken HdHiprRenderDelegate::GetMaterialBindingPurpose() const {
 }
 
 bool HdHiprRenderDelegate::storeSetting(TfToken const& key, VtValue const& value) {
+    if (key == everyBatchKey) {
+        if (_param->canRender()) {
+            _param->loop()->setPublishEveryBatch(VtValue::Cast<bool>(value).GetWithDefault(false));
+        }
+        return false;
+    }
     const SettingResult result = assignRenderSetting(_settings, key, value);
     if (result == SettingResult::Unknown) {
         if (TfStringStartsWith(key.GetString(), "hipr:")) {
@@ -195,6 +204,11 @@ void HdHiprRenderDelegate::SetRenderSetting(TfToken const& key, VtValue const& v
 }
 
 VtValue HdHiprRenderDelegate::GetRenderSetting(TfToken const& key) const {
+    if (key == sceneDumpKey && _param->canRender()) {
+        std::ostringstream text;
+        _param->loop()->dumpScene(text);
+        return VtValue(text.str());
+    }
     const VtValue value = readRenderSetting(_settings, key);
     return value.IsEmpty() ? HdRenderDelegate::GetRenderSetting(key) : value;
 }
@@ -219,6 +233,7 @@ VtDictionary HdHiprRenderDelegate::GetRenderStats() const {
     stats["hipr:tilesDiscovered"] = int(progress.tilesDiscovered);
     stats["hipr:firstRevealTime"] = progress.firstRevealSeconds;
     stats["hipr:scheduleShare"] = progress.seconds > 0 ? progress.scheduleSeconds / progress.seconds : 0.0;
+    stats["hipr:pictures"] = _param->loop()->pictures();
     stats["hipr:device"] = _param->loop()->renderer().device().name;
     stats["peakMemory"] = peakMemory();
     for (hipr::MemoryReport::Row const& row : loop.memory.rows) {

@@ -130,7 +130,22 @@ void RenderLoop::restart() {
 
 LoopStats RenderLoop::stats() const {
     std::lock_guard<std::mutex> lock(_requestMutex);
-    return {_renderer->progress(), _memory};
+    hipr::Progress progress = _renderer->progress();
+    if (_committedVersion != _version.load()) {
+        const uint32_t total = progress.samplesTotal;
+        progress = {}; // what is told of is the picture asked for, not the one before
+        progress.samplesTotal = total;
+    }
+    return {progress, _memory};
+}
+
+void RenderLoop::dumpScene(std::ostream& out) {
+    _renderer->cancel();
+    _thread.StopRender();
+    _renderer->resume();
+    pickUp(); // the render thread is idle
+    _renderer->dumpScene(out);
+    kick();
 }
 
 void RenderLoop::run() {
@@ -146,7 +161,9 @@ void RenderLoop::run() {
         }
         const bool more = _renderer->renderBatch();
         const bool done = !more && !_renderer->cancelled();
-        publish(done);
+        if (publish(done) && _everyBatch.load()) {
+            waitUntilTaken();
+        }
         if (done && finish()) {
             break;
         }
@@ -169,6 +186,7 @@ void RenderLoop::pickUp() {
         settings = _settings;
         _shownFrame = _frame;
         _firstHitsShown = false;
+        _publishedPaths = 0;
         film.width = uint32_t(std::max(_frame.rect.width, 0));
         film.height = uint32_t(std::max(_frame.rect.height, 0));
         film.aovs.clear();
@@ -186,14 +204,18 @@ void RenderLoop::pickUp() {
     hipr::MemoryReport memory = _renderer->memory();
     std::lock_guard<std::mutex> lock(_requestMutex);
     _memory = std::move(memory);
+    _committedVersion = _pickedVersion;
 }
 
-void RenderLoop::publish(bool last) {
+/// Returns whether the host can see a new picture.
+bool RenderLoop::publish(bool last) {
     const auto now = std::chrono::steady_clock::now();
     const hipr::Progress progress = _renderer->progress();
     const bool fresh = progress.fraction > 0 && progress.pictureShown;
-    if (!last && (!fresh || (_shown.load() && now - _lastPublish < publishInterval))) {
-        return;
+    const bool due = _everyBatch.load() ? progress.pathsTraced != _publishedPaths
+                                        : !_shown.load() || now - _lastPublish >= publishInterval;
+    if (!last && !(fresh && due)) {
+        return false;
     }
     std::lock_guard<std::mutex> lock(_publishMutex);
     for (AovTarget const& target : _shownFrame.targets) {
@@ -205,7 +227,23 @@ void RenderLoop::publish(bool last) {
     }
     _firstHitsShown = progress.firstHitsDone;
     _lastPublish = now;
+    _publishedPaths = progress.pathsTraced;
     _shown.store(true);
+    ++_pictures;
+    return true;
+}
+
+void RenderLoop::waitUntilTaken() {
+    const auto taken = [this] {
+        std::lock_guard<std::mutex> lock(_publishMutex);
+        auto const& targets = _shownFrame.targets;
+        return std::all_of(targets.begin(), targets.end(),
+                           [](AovTarget const& target) { return target.buffer->taken(); });
+    };
+    while (_everyBatch.load() && !_stopped.load() && !_thread.IsStopRequested() &&
+           !_thread.IsPauseRequested() && _pickedVersion == _version.load() && !taken()) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
 }
 
 void RenderLoop::publishTarget(AovTarget const& target) {

@@ -62,6 +62,14 @@ public:
     /// The buffer will not be written any more when this returns.
     void releaseBuffer(HdHiprRenderBuffer* buffer);
 
+    /// For recorders: every batch publishes its picture and waits until the host has resolved all buffers, so
+    /// that it misses none. pictures() counts them.
+    void setPublishEveryBatch(bool on) { _everyBatch.store(on); }
+    uint64_t pictures() const { return _pictures.load(); }
+
+    /// Writes what the renderer holds of the scene, all edits so far included. Rendering stops meanwhile.
+    void dumpScene(std::ostream& out);
+
     /// Wakes the render thread when there is something to render.
     void kick();
 
@@ -80,7 +88,8 @@ public:
 private:
     void run();
     void pickUp();
-    void publish(bool last);
+    bool publish(bool last);
+    void waitUntilTaken();
     void publishTarget(AovTarget const& target);
     bool finish();
     void changed();
@@ -93,6 +102,7 @@ private:
     hipr::Settings _settings;
     Frame _frame;
     hipr::MemoryReport _memory;
+    uint64_t _committedVersion = 0; ///< the request that the renderer has got
     std::atomic<uint64_t> _version{0};          ///< number of the newest request
     std::atomic<uint64_t> _convergedVersion{0}; ///< the request that was rendered to the end last
 
@@ -101,10 +111,12 @@ private:
     std::vector<float> _scratch;
     bool _firstHitsShown = false;
     std::chrono::steady_clock::time_point _lastPublish;
+    uint64_t _publishedPaths = 0; ///< traced when the last picture was published
 
     uint64_t _pickedVersion = 0;     ///< render thread only
     std::atomic<bool> _shown{false}; ///< the picked-up request has been published at least once
-    std::atomic<bool> _paused{false}, _stopped{false};
+    std::atomic<bool> _paused{false}, _stopped{false}, _everyBatch{false};
+    std::atomic<uint64_t> _pictures{0}; ///< published so far
 };
 
 } // namespace hdhipr
