@@ -233,6 +233,9 @@ VtDictionary HdHiprRenderDelegate::GetRenderStats() const {
     stats["hipr:tilesDiscovered"] = int(progress.tilesDiscovered);
     stats["hipr:firstRevealTime"] = progress.firstRevealSeconds;
     stats["hipr:scheduleShare"] = progress.seconds > 0 ? progress.scheduleSeconds / progress.seconds : 0.0;
+    stats["hipr:changes"] = loop.changes;
+    stats["hipr:changedElements"] = loop.changedElements;
+    stats["hipr:lastChange"] = hipr::toString(loop.lastChange);
     stats["hipr:pictures"] = _param->loop()->pictures();
     stats["hipr:device"] = _param->loop()->renderer().device().name;
     stats["peakMemory"] = peakMemory();

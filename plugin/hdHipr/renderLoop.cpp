@@ -136,7 +136,12 @@ LoopStats RenderLoop::stats() const {
         progress = {}; // what is told of is the picture asked for, not the one before
         progress.samplesTotal = total;
     }
-    return {progress, _memory};
+    return {progress, _memory, _changes, _lastChanged.elements.size(), _lastChanged.kinds()};
+}
+
+hipr::ChangedSet RenderLoop::lastChanged() const {
+    std::lock_guard<std::mutex> lock(_requestMutex);
+    return _lastChanged;
 }
 
 void RenderLoop::dumpScene(std::ostream& out) {
@@ -198,13 +203,18 @@ void RenderLoop::pickUp() {
             }
         }
     }
-    _renderer->setSettings(settings);
-    _renderer->setFilm(film);
-    _renderer->commit(edit);
+    hipr::ChangedSet changed = _renderer->setSettings(settings);
+    for (hipr::ChangedSet const& more : {_renderer->setFilm(film), _renderer->commit(edit)}) {
+        changed.elements.insert(changed.elements.end(), more.elements.begin(), more.elements.end());
+    }
     hipr::MemoryReport memory = _renderer->memory();
     std::lock_guard<std::mutex> lock(_requestMutex);
     _memory = std::move(memory);
     _committedVersion = _pickedVersion;
+    if (!changed.empty()) {
+        _lastChanged = std::move(changed);
+        ++_changes;
+    }
 }
 
 /// Returns whether the host can see a new picture.

@@ -42,6 +42,9 @@ struct Frame {
 struct LoopStats {
     hipr::Progress progress;
     hipr::MemoryReport memory;
+    uint64_t changes = 0;       ///< requests so far that changed something
+    size_t changedElements = 0; ///< elements that the last of them changed, and how
+    hipr::Change lastChange = hipr::Change::None;
 };
 
 /// Owns the renderer. Hydra's threads hand over requests and never wait for rendering; the render thread
@@ -85,6 +88,10 @@ public:
 
     LoopStats stats() const;
 
+    /// What the last request that changed something changed. A request may hold several edits, a new film
+    /// and settings.
+    hipr::ChangedSet lastChanged() const;
+
 private:
     void run();
     void pickUp();
@@ -102,6 +109,8 @@ private:
     hipr::Settings _settings;
     Frame _frame;
     hipr::MemoryReport _memory;
+    hipr::ChangedSet _lastChanged;
+    uint64_t _changes = 0;
     uint64_t _committedVersion = 0; ///< the request that the renderer has got
     std::atomic<uint64_t> _version{0};          ///< number of the newest request
     std::atomic<uint64_t> _convergedVersion{0}; ///< the request that was rendered to the end last
