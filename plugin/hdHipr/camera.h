@@ -12,6 +12,9 @@ class HdHiprCamera final : public HdCamera {
 public:
     explicit HdHiprCamera(SdfPath const& id) : HdCamera(id) {}
 
+    /// All parameters: HdCamera leaves out those that it does not read itself.
+    HdDirtyBits GetInitialDirtyBitsMask() const override { return AllDirty; }
+
     /// Tells which authored parameters have no effect.
     void Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdDirtyBits* dirtyBits) override;
 };

@@ -24,7 +24,7 @@ constexpr HdDirtyBits instanceBits =
 constexpr HdDirtyBits styleBits =
     HdChangeTracker::DirtyDisplayStyle | HdChangeTracker::DirtyRepr | HdChangeTracker::NewRepr;
 constexpr HdDirtyBits primvarBits = HdChangeTracker::DirtyPoints | HdChangeTracker::DirtyNormals |
-                                    HdChangeTracker::DirtyPrimvar |
+                                    HdChangeTracker::DirtyWidths | HdChangeTracker::DirtyPrimvar |
                                     HdChangeTracker::DirtyComputationPrimvarDesc;
 
 } // namespace
@@ -41,12 +41,22 @@ HdDirtyBits HdHiprMesh::GetInitialDirtyBitsMask() const {
            HdChangeTracker::DirtySubdivTags | HdChangeTracker::DirtyDoubleSided;
 }
 
+/// Decides what the scene delegate prepares for Sync.
+HdDirtyBits HdHiprMesh::_PropagateDirtyBits(HdDirtyBits bits) const {
+    // Skinning reads the transform and primvars of the mesh, and UsdImaging marks no more than them and the
+    // computation.
+    constexpr HdDirtyBits inputs = HdChangeTracker::DirtyTransform | HdChangeTracker::DirtyPrimvar;
+    return _computed && (bits & inputs) ? bits | HdChangeTracker::DirtyComputationPrimvarDesc : bits;
+}
+
 void HdHiprMesh::_InitRepr(TfToken const& reprToken, HdDirtyBits* dirtyBits) {
     const auto known = std::find_if(_reprs.begin(), _reprs.end(), _ReprComparator(reprToken));
-    if (known != _reprs.end()) {
+    if (known == _reprs.end()) {
+        _reprs.emplace_back(reprToken, HdReprSharedPtr());
+    } else if (reprToken == _reprToken) {
         return;
     }
-    _reprs.emplace_back(reprToken, HdReprSharedPtr());
+    // Also for one that was left and comes back: Hydra takes DirtyRepr off before it syncs.
     *dirtyBits |= HdChangeTracker::NewRepr;
 }
 
@@ -79,7 +89,7 @@ void HdHiprMesh::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdD
     if (bits & instanceBits) {
         sendInstances(delegate, param);
     }
-    *dirtyBits &= ~(HdChangeTracker::AllSceneDirtyBits | HdChangeTracker::NewRepr);
+    *dirtyBits = HdChangeTracker::Clean; // custom bits, too: AllDirty holds them
 }
 
 HdHiprMesh::Rebuild HdHiprMesh::syncTopology(HdSceneDelegate* delegate, HdDirtyBits bits,
@@ -167,6 +177,7 @@ void HdHiprMesh::syncComputedPrimvars(HdSceneDelegate* delegate, HdDirtyBits bit
             }
         }
     }
+    _computed = !names->empty();
     if (dirty.empty()) {
         return;
     }

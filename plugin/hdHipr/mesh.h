@@ -27,7 +27,7 @@ public:
 
 protected:
     void _InitRepr(TfToken const& reprToken, HdDirtyBits* dirtyBits) override;
-    HdDirtyBits _PropagateDirtyBits(HdDirtyBits bits) const override { return bits; }
+    HdDirtyBits _PropagateDirtyBits(HdDirtyBits bits) const override;
     void renderTagChanged(HdSceneDelegate* delegate, HdRenderParam* renderParam) override;
 
 private:
@@ -50,6 +50,7 @@ private:
         _desc; ///< kept: an edit of one part needs the others, and Hydra drops what it has handed over
     TfToken _reprToken; ///< the repr that `_style` is for
     hdhipr::MeshStyle _style;
+    bool _computed = false; ///< some primvars are computed
     SdfPathVector _subsetMaterials;
     std::shared_ptr<const hipr::TriangleMesh> _mesh;
 };
