@@ -4,7 +4,9 @@
 #include <stdexcept>
 #include <thread>
 
+#include "plugin/hdHipr/renderParam.h"
 #include "pxr/base/gf/frustum.h"
+#include "pxr/imaging/hd/camera.h"
 #include "pxr/imaging/hd/renderPassState.h"
 #include "pxr/imaging/hd/task.h"
 
@@ -66,6 +68,10 @@ TestHost::~TestHost() {
     _index.reset();
 }
 
+hdhipr::RenderLoop& TestHost::loop() {
+    return *static_cast<HdHiprRenderParam*>(_delegate->GetRenderParam())->loop();
+}
+
 HdHiprRenderBuffer& TestHost::buffer(std::string const& aov) {
     for (auto const& [name, buffer] : _buffers) {
         if (name == aov) {
@@ -75,6 +81,14 @@ HdHiprRenderBuffer& TestHost::buffer(std::string const& aov) {
     throw std::out_of_range("no buffer for " + aov);
 }
 
+void TestHost::bind(std::string const& aov, SdfPath const& buffer) {
+    HdRenderPassAovBindingVector bindings = _state->GetAovBindings();
+    bindings.emplace_back();
+    bindings.back().aovName = TfToken(aov);
+    bindings.back().renderBufferId = buffer;
+    _state->SetAovBindings(bindings);
+}
+
 void TestHost::setClearColor(GfVec4f const& color) {
     HdRenderPassAovBindingVector bindings = _state->GetAovBindings();
     bindings.front().clearValue = VtValue(color);
@@ -82,16 +96,25 @@ void TestHost::setClearColor(GfVec4f const& color) {
 }
 
 void TestHost::tick() {
+    if (_camera.IsEmpty()) {
+        lookAtPlane();
+    } else {
+        const HdSprim* camera = _index->GetSprim(HdPrimTypeTokens->camera, _camera);
+        _state->SetCameraAndViewport(static_cast<HdCamera const*>(camera), _viewport);
+    }
+    HdTaskSharedPtrVector tasks{std::make_shared<PassTask>(_pass, _state, _tags)};
+    _engine.Execute(_index.get(), &tasks);
+}
+
+void TestHost::lookAtPlane() {
     const double half = _viewSize / 2;
     GfFrustum frustum;
     frustum.SetProjectionType(GfFrustum::Orthographic);
     frustum.SetWindow(GfRange2d(GfVec2d(-half, -half), GfVec2d(half, half)));
     frustum.SetNearFar(GfRange1d(1, 100));
     frustum.SetPosition(GfVec3d(0, 0, 10));
-    _state->SetCameraFramingState(frustum.ComputeViewMatrix(), frustum.ComputeProjectionMatrix(),
-                                  GfVec4d(0, 0, width, height), {});
-    HdTaskSharedPtrVector tasks{std::make_shared<PassTask>(_pass, _state, _tags)};
-    _engine.Execute(_index.get(), &tasks);
+    _state->SetCameraFramingState(frustum.ComputeViewMatrix(), frustum.ComputeProjectionMatrix(), _viewport,
+                                  {});
 }
 
 bool TestHost::render() {

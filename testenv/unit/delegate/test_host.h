@@ -8,6 +8,8 @@
 
 #include "plugin/hdHipr/renderBuffer.h"
 #include "plugin/hdHipr/renderDelegate.h"
+#include "plugin/hdHipr/renderLoop.h"
+#include "pxr/base/gf/vec4d.h"
 #include "pxr/imaging/hd/engine.h"
 #include "pxr/imaging/hd/renderPass.h"
 #include "testenv/unit/delegate/test_scene.h"
@@ -25,11 +27,18 @@ public:
 
     TestScene& scene() { return *_scene; }
     HdHiprRenderDelegate& delegate() { return *_delegate; }
+    HdRenderIndex& index() { return *_index; }
     HdRenderPass& pass() { return *_pass; }
+    hdhipr::RenderLoop& loop(); ///< of the delegate, which must have a device
     HdHiprRenderBuffer& buffer(std::string const& aov);
 
     void setViewSize(double size) { _viewSize = size; }
+    void setCamera(SdfPath const& camera) { _camera = camera; } ///< a prim of the scene to look through
+    /// Changes the picture's size and leaves the buffers alone.
+    void setViewport(int w, int h) { _viewport = GfVec4d(0, 0, w, h); }
     void setRenderTags(TfTokenVector const& tags) { _tags = tags; }
+    /// Renders an AOV into a render buffer of the scene, too.
+    void bind(std::string const& aov, SdfPath const& buffer);
     void setClearColor(GfVec4f const& color); ///< of the first AOV
     void setCollection(HdRprimCollection const& collection) { _pass->SetRprimCollection(collection); }
 
@@ -44,6 +53,7 @@ public:
     GfVec4f readColor(double x, double y);
 
 private:
+    void lookAtPlane();
     size_t pixelIndex(double x, double y) const;
 
     std::unique_ptr<HdHiprRenderDelegate> _delegate;
@@ -55,6 +65,8 @@ private:
     std::vector<std::pair<std::string, HdHiprRenderBuffer*>> _buffers;
     TfTokenVector _tags{HdRenderTagTokens->geometry};
     double _viewSize = 1.0;
+    SdfPath _camera;
+    GfVec4d _viewport{0, 0, width, height};
 };
 
 PXR_NAMESPACE_CLOSE_SCOPE

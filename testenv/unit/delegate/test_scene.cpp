@@ -1,9 +1,25 @@
 #include "testenv/unit/delegate/test_scene.h"
 
+#include "pxr/base/gf/frustum.h"
 #include "pxr/base/gf/vec3f.h"
+#include "pxr/imaging/hd/camera.h"
 #include "pxr/imaging/pxOsd/tokens.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
+
+namespace {
+
+const HdTupleType pointType{HdTypeFloatVec3, 1};
+
+VtVec3fArray squarePoints(GfVec3f const& offset) {
+    VtVec3fArray points{{-0.5f, -0.5f, 0}, {0.5f, -0.5f, 0}, {0.5f, 0.5f, 0}, {-0.5f, 0.5f, 0}};
+    for (GfVec3f& point : points) {
+        point += offset;
+    }
+    return points;
+}
+
+} // namespace
 
 TestScene::Prim& TestScene::addSquare(SdfPath const& id, GfVec3f const& color, SdfPath const& instancer) {
     Prim& prim = _prims[id];
@@ -11,9 +27,7 @@ TestScene::Prim& TestScene::addSquare(SdfPath const& id, GfVec3f const& color, S
     prim.instancer = instancer;
     prim.topology = HdMeshTopology(PxOsdOpenSubdivTokens->none, PxOsdOpenSubdivTokens->rightHanded,
                                    VtIntArray{4}, VtIntArray{0, 1, 2, 3});
-    prim.primvars[HdTokens->points] = {
-        HdInterpolationVertex,
-        VtValue(VtVec3fArray{{-0.5f, -0.5f, 0}, {0.5f, -0.5f, 0}, {0.5f, 0.5f, 0}, {-0.5f, 0.5f, 0}})};
+    prim.primvars[HdTokens->points] = {HdInterpolationVertex, VtValue(squarePoints(GfVec3f(0.f)))};
     prim.primvars[HdTokens->displayColor] = {HdInterpolationConstant, VtValue(VtVec3fArray{color})};
 #if PXR_VERSION < 2102
     GetRenderIndex().InsertRprim(HdPrimTypeTokens->mesh, this, id, instancer);
@@ -73,12 +87,45 @@ TestScene::Prim& TestScene::addMaterial(SdfPath const& id, GfVec3f const& color)
     return prim;
 }
 
+TestScene::Prim& TestScene::addCamera(SdfPath const& id, double viewSize) {
+    Prim& prim = _prims[id];
+    prim.type = HdPrimTypeTokens->camera;
+    const double half = viewSize / 2;
+    GfFrustum frustum;
+    frustum.SetProjectionType(GfFrustum::Orthographic);
+    frustum.SetWindow(GfRange2d(GfVec2d(-half, -half), GfVec2d(half, half)));
+    frustum.SetNearFar(GfRange1d(1, 100));
+    frustum.SetPosition(GfVec3d(0, 0, 10));
+    prim.params[TfToken("worldToViewMatrix")] = VtValue(frustum.ComputeViewMatrix());
+    prim.params[TfToken("projectionMatrix")] = VtValue(frustum.ComputeProjectionMatrix());
+    GetRenderIndex().InsertSprim(HdPrimTypeTokens->camera, this, id);
+    return prim;
+}
+
+TestScene::Prim& TestScene::addComputation(SdfPath const& id) {
+    Prim& prim = _prims[id];
+    prim.type = HdPrimTypeTokens->extComputation;
+    prim.params[TfToken("offset")] = VtValue(GfVec3f(0.f));
+    GetRenderIndex().InsertSprim(HdPrimTypeTokens->extComputation, this, id);
+    return prim;
+}
+
+TestScene::Prim& TestScene::addBuffer(SdfPath const& id, HdRenderBufferDescriptor const& descriptor) {
+    Prim& prim = _prims[id];
+    prim.type = HdPrimTypeTokens->renderBuffer;
+    prim.buffer = descriptor;
+    GetRenderIndex().InsertBprim(HdPrimTypeTokens->renderBuffer, this, id);
+    return prim;
+}
+
 void TestScene::remove(SdfPath const& id) {
     const TfToken type = prim(id).type;
     if (type == HdPrimTypeTokens->mesh) {
         GetRenderIndex().RemoveRprim(id);
     } else if (type == HdInstancerTokens->instancer) {
         GetRenderIndex().RemoveInstancer(id);
+    } else if (type == HdPrimTypeTokens->renderBuffer) {
+        GetRenderIndex().RemoveBprim(type, id);
     } else {
         GetRenderIndex().RemoveSprim(type, id);
     }
@@ -105,11 +152,31 @@ VtIntArray TestScene::GetInstanceIndices(SdfPath const& id, SdfPath const& proto
 }
 
 VtValue TestScene::GetLightParamValue(SdfPath const& id, TfToken const& name) {
-    if (name == "transform") {
-        return VtValue(prim(id).transform);
-    }
+    return name == "transform" ? VtValue(prim(id).transform) : param(id, name);
+}
+
+VtValue TestScene::param(SdfPath const& id, TfToken const& name) {
     const auto found = prim(id).params.find(name);
     return found == prim(id).params.end() ? VtValue() : found->second;
+}
+
+HdExtComputationOutputDescriptorVector TestScene::GetExtComputationOutputDescriptors(SdfPath const&) {
+    return {{TfToken("moved"), pointType}};
+}
+
+HdExtComputationPrimvarDescriptorVector
+TestScene::GetExtComputationPrimvarDescriptors(SdfPath const& id, HdInterpolation interpolation) {
+    SdfPath const& computation = prim(id).computation;
+    if (computation.IsEmpty() || interpolation != HdInterpolationVertex) {
+        return {};
+    }
+    return {{HdTokens->points, interpolation, HdPrimvarRoleTokens->point, computation, TfToken("moved"),
+             pointType}};
+}
+
+void TestScene::InvokeExtComputation(SdfPath const&, HdExtComputationContext* context) {
+    const VtValue offset = context->GetInputValue(TfToken("offset"));
+    context->SetOutputValue(TfToken("moved"), VtValue(squarePoints(offset.Get<GfVec3f>())));
 }
 
 PXR_NAMESPACE_CLOSE_SCOPE

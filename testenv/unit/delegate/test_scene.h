@@ -7,6 +7,7 @@
 
 #include "plugin/hdHipr/compat.h"
 #include "pxr/base/gf/vec3f.h"
+#include "pxr/imaging/hd/extComputationContext.h"
 #include "pxr/imaging/hd/tokens.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
@@ -25,11 +26,14 @@ public:
         TfToken renderTag = HdRenderTagTokens->geometry;
         SdfPath material, instancer;
         std::map<TfToken, Primvar> primvars;
-        std::map<TfToken, VtValue> params;     ///< of a light
+        std::map<TfToken, VtValue> params;     ///< of a light, camera or computation
         std::map<SdfPath, VtIntArray> indices; ///< of an instancer, by prototype
         VtValue resource;                      ///< of a material
         PxOsdSubdivTags tags;
         int refineLevel = 0;
+        HdReprSelector repr;
+        SdfPath computation; ///< that gives the points
+        HdRenderBufferDescriptor buffer;
     };
 
     explicit TestScene(HdRenderIndex* index) : HdSceneDelegate(index, SdfPath::AbsoluteRootPath()) {}
@@ -45,6 +49,13 @@ public:
     Prim& addSphereLightFarAway(SdfPath const& id);
     /// Adds a UsdPreviewSurface of one diffuse colour without a specular lobe's help.
     Prim& addMaterial(SdfPath const& id, GfVec3f const& color);
+
+    /// Adds a camera that sees what a TestHost without a camera sees.
+    Prim& addCamera(SdfPath const& id, double viewSize);
+    /// Adds a computation of points: those of the unit square, moved by its input "offset".
+    Prim& addComputation(SdfPath const& id);
+    /// Adds a render buffer to the index.
+    Prim& addBuffer(SdfPath const& id, HdRenderBufferDescriptor const& descriptor);
 
     Prim& prim(SdfPath const& id) { return _prims.at(id); }
     HdChangeTracker& tracker() { return GetRenderIndex().GetChangeTracker(); }
@@ -67,6 +78,17 @@ public:
                                                     HdInterpolation interpolation) override;
     VtIntArray GetInstanceIndices(SdfPath const& id, SdfPath const& prototype) override;
     VtValue GetLightParamValue(SdfPath const& id, TfToken const& name) override;
+    VtValue GetCameraParamValue(SdfPath const& id, TfToken const& name) override { return param(id, name); }
+    HdReprSelector GetReprSelector(SdfPath const& id) override { return prim(id).repr; }
+    HdRenderBufferDescriptor GetRenderBufferDescriptor(SdfPath const& id) override { return prim(id).buffer; }
+    TfTokenVector GetExtComputationSceneInputNames(SdfPath const&) override { return {TfToken("offset")}; }
+    VtValue GetExtComputationInput(SdfPath const& id, TfToken const& name) override {
+        return param(id, name);
+    }
+    HdExtComputationOutputDescriptorVector GetExtComputationOutputDescriptors(SdfPath const&) override;
+    HdExtComputationPrimvarDescriptorVector
+    GetExtComputationPrimvarDescriptors(SdfPath const& id, HdInterpolation interpolation) override;
+    void InvokeExtComputation(SdfPath const& id, HdExtComputationContext* context) override;
 #if PXR_VERSION >= 2102
     SdfPath GetInstancerId(SdfPath const& id) override {
         return prim(id).instancer;
@@ -74,6 +96,8 @@ public:
 #endif
 
 private:
+    VtValue param(SdfPath const& id, TfToken const& name);
+
     std::map<SdfPath, Prim> _prims;
 };
 
