@@ -17,13 +17,19 @@ using Json = nlohmann::ordered_json;
 
 Json toJson(const VtDictionary& dictionary);
 
+/// A value that can be cast to T, as a T. (With newer OpenUSD, GCC warns when the cast stays a temporary.)
+template <class T> T castTo(const VtValue& value) {
+    const VtValue cast = VtValue::Cast<T>(value);
+    return cast.UncheckedGet<T>();
+}
+
 Json toJson(const VtValue& value) {
     if (value.IsHolding<VtDictionary>()) return toJson(value.UncheckedGet<VtDictionary>());
     if (value.IsHolding<bool>()) return value.UncheckedGet<bool>();
     if (value.IsHolding<std::string>()) return value.UncheckedGet<std::string>();
     const bool real = value.IsHolding<float>() || value.IsHolding<double>();
-    if (!real && value.CanCast<int64_t>()) return VtValue::Cast<int64_t>(value).UncheckedGet<int64_t>();
-    if (value.CanCast<double>()) return VtValue::Cast<double>(value).UncheckedGet<double>();
+    if (!real && value.CanCast<int64_t>()) return castTo<int64_t>(value);
+    if (value.CanCast<double>()) return castTo<double>(value);
     return TfStringify(value);
 }
 
@@ -49,7 +55,7 @@ std::string byteText(double bytes) {
 double statNumber(const VtDictionary& stats, const std::string& key, double fallback) {
     const auto found = stats.find(key);
     if (found == stats.end() || !found->second.CanCast<double>()) return fallback;
-    return VtValue::Cast<double>(found->second).UncheckedGet<double>();
+    return castTo<double>(found->second);
 }
 
 std::string reportJson(const RecordingReport& report) {
