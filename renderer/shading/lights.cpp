@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "renderer/shading/alias.h"
@@ -15,6 +16,7 @@ using gpu::LightRecord;
 
 struct LightTable::Impl {
     struct Light {
+        std::string name;
         LightRecord record;
         std::optional<uint32_t> texture;
     };
@@ -40,6 +42,7 @@ struct LightTable::Impl {
     void forget(LightId id);
     const Picture& picture(uint32_t texture);
     void dropPictures();
+    std::vector<Light*> inOrder();
     bool bindTexture(Light& light, LightRecord& record, glm::vec3& mean);
     void rebuild();
     void upload(const std::vector<LightRecord>& table, const std::vector<double>& chances);
@@ -75,6 +78,16 @@ void LightTable::Impl::dropPictures() {
     }
 }
 
+/// By name: which light a random number chooses must not depend on the edits that led here. Ids do.
+std::vector<LightTable::Impl::Light*> LightTable::Impl::inOrder() {
+    std::vector<Light*> order;
+    for (auto& [id, light] : lights)
+        order.push_back(&light);
+    std::stable_sort(order.begin(), order.end(),
+                     [](const Light* a, const Light* b) { return a->name < b->name; });
+    return order;
+}
+
 /// Points the record at its texture. Returns false when the picture is black.
 bool LightTable::Impl::bindTexture(Light& light, LightRecord& record, glm::vec3& mean) {
     if (!light.texture) return true;
@@ -94,13 +107,14 @@ void LightTable::Impl::rebuild() {
     std::vector<LightRecord> table;
     std::vector<double> powers;
     areaLights = infiniteLights = 0;
+    const std::vector<Light*> order = inOrder();
     for (const bool infinite : {false, true})
-        for (auto& [id, light] : lights) {
+        for (Light* light : order) {
             const bool isInfinite =
-                light.record.kind == gpu::LIGHT_DOME || light.record.kind == gpu::LIGHT_DISTANT;
+                light->record.kind == gpu::LIGHT_DOME || light->record.kind == gpu::LIGHT_DISTANT;
             glm::vec3 mean(1.f);
-            LightRecord record = light.record;
-            if (isInfinite != infinite || !bindTexture(light, record, mean)) continue;
+            LightRecord record = light->record;
+            if (isInfinite != infinite || !bindTexture(*light, record, mean)) continue;
             table.push_back(record);
             powers.push_back(lightPower(record, mean, sceneRadius));
             ++(infinite ? infiniteLights : areaLights);
@@ -131,6 +145,7 @@ LightTable::~LightTable() = default;
 
 void LightTable::set(LightId id, const LightDesc& desc) {
     Impl::Light light;
+    light.name = desc.name;
     std::string problem;
     const bool emits = describeLight(desc, light.record, problem);
     if (!problem.empty() && _impl->device.messages())
