@@ -62,6 +62,7 @@ void ObjectTable::setObject(ObjectId id, const ObjectDesc& desc, ChangedSet& cha
     }
     entry.boundsPending = true;
     entry.missingReported = false;
+    if (!entry.desc || entry.desc->name != desc.name) _order.clear();
     entry.desc = desc;
 }
 
@@ -85,6 +86,7 @@ void ObjectTable::removeObject(ObjectId id, ChangedSet& changed) {
     if (found == _entries.end()) return;
     vacate(found->second);
     _entries.erase(found);
+    _order.clear();
     note(changed, id, Change::Removed);
 }
 
@@ -275,11 +277,24 @@ void ObjectTable::updateBounds(Entry& entry, const TriangleMesh& mesh) {
         entry.box.add(placedBox(entry, entry.placed.first + i));
 }
 
+const std::vector<ObjectId>& ObjectTable::order() {
+    if (_order.size() == _entries.size()) return _order;
+    std::vector<std::pair<std::string, ObjectId>> named;
+    for (const auto& [id, entry] : _entries)
+        named.emplace_back(entry.desc ? entry.desc->name : std::string(), id);
+    std::sort(named.begin(), named.end());
+    _order.clear();
+    for (const auto& [name, id] : named)
+        _order.push_back(id);
+    return _order;
+}
+
 bool ObjectTable::commit(const GeometryTable& geometries, const MaterialTable* materials) {
     std::vector<uint32_t> materialIndices;
     std::vector<std::pair<ObjectId, Entry*>> rewritten;
     uint32_t total = 0;
-    for (auto& [id, entry] : _entries) {
+    for (const ObjectId id : order()) {
+        Entry& entry = _entries.at(id);
         entry.fresh = false;
         const Geometry* geometry = shownGeometry(entry, geometries);
         const bool transformsChanged = geometry && entry.transformsPending;

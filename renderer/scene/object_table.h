@@ -14,8 +14,8 @@
 
 namespace hipr {
 
-/// Instances are laid out by object id, so that a scene looks the same to the last bit whatever edits led to
-/// it.
+/// Instances are laid out by the names of their objects, so that a scene looks the same to the last bit
+/// whatever edits led to it.
 class ObjectTable {
 public:
     ObjectTable(Device& device, NameTable& names) : _device(device), _names(names) {}
@@ -71,6 +71,9 @@ private:
     const Geometry* shownGeometry(Entry& entry, const GeometryTable& geometries);
     Placement place(Entry& entry, const Geometry* geometry, const MaterialTable* materials, uint32_t first,
                     std::vector<uint32_t>& materialIndices);
+    /// Ids by the name of the object: hits at equal distance go to the first, and ids tell the history of
+    /// edits.
+    const std::vector<ObjectId>& order();
     void findUsable(Entry& entry);
     void uploadPrimvars(Entry& entry);
     void writeRecords(ObjectId id, Entry& entry);
@@ -85,6 +88,7 @@ private:
     Device& _device;
     NameTable& _names;
     std::map<ObjectId, Entry> _entries;
+    std::vector<ObjectId> _order; ///< of another size than `_entries`: to be made anew
     std::vector<gpu::InstanceRecord> _records;
     std::vector<uint32_t> _materialIndices;
     DeviceTable _recordTable, _materialTable;
