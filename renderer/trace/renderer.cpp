@@ -22,11 +22,6 @@ std::vector<unsigned char> readFile(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-/// Paths a batch can hold: enough to fill the device, not more than its caches and memory like.
-uint32_t batchCapacity(const DeviceInfo& device) {
-    return device.cpu ? 1u << 16 : 1u << 20;
-}
-
 /// Position of an enum setting's value among its choices.
 uint32_t choiceIndex(const char* setting, const std::string& value) {
     for (const SettingInfo& info : settingTable())
@@ -70,11 +65,10 @@ bool anyCamera(const ChangedSet& changed) {
 
 } // namespace
 
-RendererImpl::RendererImpl(std::unique_ptr<Device> device, const RendererOptions& options,
+RendererImpl::RendererImpl(MachinePtr machine, const RendererOptions& options,
                            const RendererInternals& internals)
-    : _device(std::move(device)), _internals(internals), _scene(*_device, options.assets),
-      _film(*_device, _scene.names()),
-      _tracer(*_device, std::max(batchCapacity(_device->info()), internals.batchPaths)),
+    : _machine(std::move(machine)), _device(_machine->device.get()), _internals(internals),
+      _scene(*_device, options.assets), _film(*_device, _scene.names()), _tracer(_machine->tracer),
       _edits(*_device, _scene, _film, _tracer, _schedule, _log), _batch(_tracer.capacity()) {
     selectTraversal();
     _scene.commit();
@@ -358,9 +352,9 @@ std::unique_ptr<RendererImpl> createRenderer(const RendererOptions& options,
     if (!complete.messages) complete.messages = printMessage;
     if (!complete.assets) complete.assets = readFile;
     try {
-        std::unique_ptr<Device> device = Device::create(complete, error);
-        if (!device) return nullptr;
-        return std::make_unique<RendererImpl>(std::move(device), complete, internals);
+        MachinePtr machine = makeMachine(complete, internals.batchPaths, error);
+        if (!machine) return nullptr;
+        return std::make_unique<RendererImpl>(std::move(machine), complete, internals);
     } catch (const std::exception& e) {
         if (error) *error = reasonOf(e);
         return nullptr;

@@ -12,7 +12,7 @@
 #include "renderer/trace/batch_size.h"
 #include "renderer/trace/edit_scheduler.h"
 #include "renderer/trace/film.h"
-#include "renderer/trace/path_tracer.h"
+#include "renderer/trace/machine.h"
 
 namespace hipr {
 
@@ -24,8 +24,7 @@ struct RendererInternals {
 
 class RendererImpl : public Renderer {
 public:
-    RendererImpl(std::unique_ptr<Device> device, const RendererOptions& options,
-                 const RendererInternals& internals);
+    RendererImpl(MachinePtr machine, const RendererOptions& options, const RendererInternals& internals);
 
     const DeviceInfo& device() const override { return _device->info(); }
     ChangedSet commit(SceneEdit& edit) override;
@@ -62,7 +61,8 @@ private:
     uint32_t batchPaths() const { return _internals.batchPaths ? _internals.batchPaths : _batch.paths(); }
     void count(uint32_t paths, double seconds);
 
-    std::unique_ptr<Device> _device; ///< outlives everything below
+    MachinePtr _machine; ///< outlives everything below
+    Device* _device;
     RendererInternals _internals;
     Settings _settings;
     std::string _traversalInUse;
@@ -70,7 +70,7 @@ private:
     FilmBuffers _film;
     TileSchedule _schedule;
     ScheduleLog _log;
-    PathTracer _tracer;
+    PathTracer& _tracer;
     EditScheduler _edits;
     BatchSize _batch;
     bool _failed = false, _setupPending = true, _nonFiniteReported = false, _cameraReported = false;
