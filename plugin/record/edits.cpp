@@ -4,6 +4,7 @@
 
 #include "plugin/record/failure.h"
 #include "plugin/record/mergeLayer.h"
+#include "plugin/record/usdaText.h"
 #include "pxr/base/tf/error.h"
 #include "pxr/base/tf/errorMark.h"
 #include "pxr/base/tf/notice.h"
@@ -98,10 +99,14 @@ UsdPrim Application::prim(const SdfPath& path) const {
 
 /// Prims that a reference, a payload or a variant brings in would come back.
 void Application::requireOwn(const SdfPath& path, const char* verb) const {
-    for (const SdfPrimSpecHandle& spec : prim(path).GetPrimStack())
-        if (!_stage->HasLocalLayer(spec->GetLayer()) || spec->GetPath() != path)
+    for (const SdfPrimSpecHandle& spec : prim(path).GetPrimStack()) {
+        SdfPath owner = spec->GetPath();
+        while (owner.IsPrimVariantSelectionPath()) // its own variants go with it
+            owner = owner.GetParentPath();
+        if (!_stage->HasLocalLayer(spec->GetLayer()) || owner != path)
             fail(text(path) + " is brought in by a reference, payload, inherit or variant and cannot be " +
                  verb + "; deactivate it instead");
+    }
 }
 
 std::string Application::findLayer(const std::string& identifier) const {
@@ -175,8 +180,7 @@ void Application::remove(const SdfPath& path) {
 void Application::merge() {
     TfErrorMark errors;
     const SdfLayerRefPtr snippet = SdfLayer::CreateAnonymous(layerName);
-    const bool hasHeader = TfStringStartsWith(TfStringTrimLeft(_edit.usda), "#usda");
-    if (!snippet->ImportFromString((hasHeader ? "" : "#usda 1.0\n") + _edit.usda) || !errors.IsClean()) {
+    if (!snippet->ImportFromString(completeUsda(_edit.usda)) || !errors.IsClean()) {
         std::string why = "its usda cannot be read";
         for (const TfError& error : errors)
             why += ": " + TfStringTrim(error.GetCommentary());

@@ -223,6 +223,10 @@ void Engine::setFrame(double frame) {
     _impl->scene->ApplyPendingUpdates();
 }
 
+void Engine::setCamera(const SdfPath& camera) {
+    _impl->task->setCamera(camera);
+}
+
 bool Engine::step() {
     HdTaskSharedPtrVector tasks{_impl->task};
     _impl->hydra.Execute(_impl->index.get(), &tasks);
@@ -242,6 +246,18 @@ Picture Engine::read() {
 
 VtDictionary Engine::stats() const {
     return _impl->delegate->GetRenderStats();
+}
+
+void Engine::publishEveryBatch() {
+    _impl->delegate->SetRenderSetting(TfToken("hipr:publishEveryBatch"), VtValue(true));
+}
+
+std::string Engine::sceneDump() const {
+    const VtValue text = _impl->delegate->GetRenderSetting(TfToken("hipr:sceneDump"));
+    if (!text.IsHolding<std::string>())
+        throw Failure(ExitUsage,
+                      "--dump-scene: the renderer " + rendererName() + " cannot tell what it holds");
+    return text.UncheckedGet<std::string>();
 }
 
 std::vector<std::string> listRenderers() {

@@ -43,8 +43,9 @@ public:
     void populate(const PXR_NS::UsdStageRefPtr& stage, const PXR_NS::SdfPath& camera,
                   const EngineOptions& options);
 
-    /// The frame the next step() renders.
+    /// The frame the next step() renders. Also tells the renderer what was edited on the stage.
     void setFrame(double frame);
+    void setCamera(const PXR_NS::SdfPath& camera);
     /// Sends changes to the renderer, lets it work, and says whether every AOV has converged. Returns quickly
     /// when the renderer works in the background.
     bool step();
@@ -52,6 +53,12 @@ public:
     /// Failure with ExitRender when a buffer cannot be read.
     Picture read();
     PXR_NS::VtDictionary stats() const;
+
+    /// HiPR waits after every batch until read() has taken its picture; stats() counts them as
+    /// "hipr:pictures".
+    void publishEveryBatch();
+    /// The text of hipr::Renderer::dumpScene(). Throws Failure with ExitUsage when the renderer is another.
+    std::string sceneDump() const;
 
 private:
     struct Impl;

@@ -22,13 +22,14 @@ const char* const epilogue = R"(Examples:
   hiprrecord shot.usd -o shot.####.exr --frames 1001:1100 --camera shotCam
   hiprrecord shot.usd -o layers.exr --aovs color,normal,cameraDepth,primId
   hiprrecord shot.usd -o quick.jpg --time 10 --set hipr:maxDepth=2
+  hiprrecord scene.usda -o picture.png --edits edits.json   a picture after each edit of the live scene
 
 EXR files hold every AOV: color as R G B A, others as layers <aov>.X/Y/Z, .R/G/B, .Z or .V (32-bit float); ids
 as <aov>.I (unsigned int; where nothing is seen, -1 reads 4294967295). Values are scene-linear. PNG and JPEG files
 show color through the view transform.
 
-Exit codes: 0 done, 1 usage, 2 stage cannot be read, 3 no such camera, 4 output cannot be written,
-5 rendering failed, 130 interrupted (what was there has been written).)";
+Exit codes: 0 done, 1 usage (also an edit that cannot be done), 2 stage cannot be read, 3 no such camera, 4 output
+cannot be written, 5 rendering failed, 130 interrupted (what was there has been written).)";
 
 struct RawOptions {
     std::string size, frames, complexity = "low", aovs, purposes;
@@ -174,6 +175,19 @@ void addRendererOptions(CLI::App& app, Options& options, RawOptions& raw) {
         ->group("Rendering");
 }
 
+void addEditOptions(CLI::App& app, Options& options) {
+    app.add_option("--edits", options.editsFile,
+                   "Apply the edits of this JSON script one after the other while rendering, with a picture "
+                   "NAME.<number>.<edit>.EXT of each; number 0 is the scene before any edit")
+        ->type_name("FILE")
+        ->group("Edits");
+    app.add_option("--edit-frames", options.editFramesFolder,
+                   "Write the picture after every batch of work into this folder, and frames.jsonl, which "
+                   "tells of each")
+        ->type_name("FOLDER")
+        ->group("Edits");
+}
+
 void addReportOptions(CLI::App& app, Options& options, RawOptions& raw) {
     app.add_flag("--memory", options.memory, "Print the renderer's memory by kind after each frame")
         ->group("Reports");
@@ -181,28 +195,48 @@ void addReportOptions(CLI::App& app, Options& options, RawOptions& raw) {
                    "Write times, samples and renderer statistics as JSON; - prints them")
         ->type_name("FILE")
         ->group("Reports");
+    app.add_option("--dump-scene", options.dumpFile,
+                   "Write what the renderer holds of the scene as text, one fact per line; - prints it. "
+                   "Without -o nothing is rendered")
+        ->type_name("FILE")
+        ->group("Reports");
     app.add_flag("-q,--quiet", raw.quiet, "Print errors only")->group("Reports");
     app.add_flag("-v,--verbose", raw.verbose, "Print status messages too")->group("Reports");
 }
 
+/// Files of several frames need names of their own.
+void checkPlaceholder(const std::string& output, const std::vector<double>& frames) {
+    const FramePattern pattern(output);
+    if (frames.size() > 1 && !pattern.hasPlaceholder())
+        throw Failure(ExitUsage,
+                      "'" + output + "' needs a frame placeholder such as #### for several frames");
+    const bool fractional =
+        std::any_of(frames.begin(), frames.end(), [](double frame) { return frame != std::round(frame); });
+    if (frames.size() > 1 && fractional && !pattern.hasFraction())
+        throw Failure(ExitUsage,
+                      "'" + output + "' needs a placeholder such as ####.## for fractional frames");
+}
+
 void checkOutputs(const Options& options) {
-    if (options.outputs.empty()) throw Failure(ExitUsage, "no output: give -o FILE (see --help)");
+    if (options.outputs.empty() && options.dumpFile.empty() && options.editFramesFolder.empty())
+        throw Failure(ExitUsage, "no output: give -o FILE (see --help)");
     const bool hasColor = std::find(options.aovs.begin(), options.aovs.end(), "color") != options.aovs.end();
     for (const std::string& output : options.outputs) {
         const std::string kind = imageKind(output);
         if (kind.empty()) throw Failure(ExitUsage, "'" + output + "': image files end in .exr, .png or .jpg");
         if (kind != "exr" && !hasColor)
             throw Failure(ExitUsage, "'" + output + "' shows the AOV color, which --aovs leaves out");
-        const FramePattern pattern(output);
-        if (options.frames.size() > 1 && !pattern.hasPlaceholder())
-            throw Failure(ExitUsage,
-                          "'" + output + "' needs a frame placeholder such as #### for several frames");
-        const bool fractional = std::any_of(options.frames.begin(), options.frames.end(),
-                                            [](double frame) { return frame != std::round(frame); });
-        if (options.frames.size() > 1 && fractional && !pattern.hasFraction())
-            throw Failure(ExitUsage,
-                          "'" + output + "' needs a placeholder such as ####.## for fractional frames");
+        checkPlaceholder(output, options.frames);
     }
+    if (!options.dumpFile.empty() && options.dumpFile != "-")
+        checkPlaceholder(options.dumpFile, options.frames);
+    const bool edits = !options.editsFile.empty() || !options.editFramesFolder.empty();
+    if (edits && options.frames.size() > 1)
+        throw Failure(ExitUsage, "--edits and --edit-frames render one frame, not several");
+    if (!options.editFramesFolder.empty() && !hasColor)
+        throw Failure(ExitUsage, "--edit-frames shows the AOV color, which --aovs leaves out");
+    if (!options.editFramesFolder.empty() && options.renderer != "HiPR")
+        throw Failure(ExitUsage, "--edit-frames needs the renderer HiPR");
 }
 
 void interpret(const RawOptions& raw, Options& options) {
@@ -236,6 +270,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     addSceneOptions(app, options, raw);
     addPictureOptions(app, options, raw);
     addRendererOptions(app, options, raw);
+    addEditOptions(app, options);
     addReportOptions(app, options, raw);
     try {
         app.parse(argc, argv);

@@ -32,10 +32,15 @@ struct Options {
     bool alpha = false;
 
     bool listSettings = false, listAovs = false, listCameras = false, listRenderers = false;
+    std::string editsFile, editFramesFolder; ///< empty: none
+    std::string dumpFile; ///< may hold a frame placeholder; empty: none; "-": standard output
+
     bool memory = false;
     std::string statsFile; ///< empty: none; "-": standard output
     Verbosity verbosity = Verbosity::Normal;
 
+    /// The scene is only to be told of, not rendered.
+    bool onlyDump() const { return outputs.empty() && editFramesFolder.empty() && !dumpFile.empty(); }
     bool onlyLists() const { return listSettings || listAovs || listCameras || listRenderers; }
 };
 

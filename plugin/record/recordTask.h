@@ -22,6 +22,7 @@ public:
     void Execute(PXR_NS::HdTaskContext*) override;
     const PXR_NS::TfTokenVector& GetRenderTags() const override { return _renderTags; }
 
+    void setCamera(const PXR_NS::SdfPath& camera) { _camera = camera; }
     bool isConverged() const { return _pass->IsConverged(); }
     /// Matrices of the last execution, the projection conformed to the picture's aspect ratio.
     PXR_NS::GfMatrix4d worldToView() const { return _state->GetWorldToViewMatrix(); }

@@ -7,14 +7,19 @@
 #include <thread>
 #include <unistd.h>
 
+#include "plugin/record/editFrames.h"
+#include "plugin/record/edits.h"
 #include "plugin/record/engine.h"
 #include "plugin/record/frames.h"
+#include "plugin/record/lists.h"
+#include "plugin/record/materialCycles.h"
 #include "plugin/record/progress.h"
 #include "plugin/record/renderSettings.h"
 #include "plugin/record/report.h"
 #include "pxr/base/plug/registry.h"
 #include "pxr/base/tf/stringUtils.h"
 #include "pxr/imaging/hd/tokens.h"
+#include "pxr/usd/usdGeom/camera.h"
 
 PXR_NAMESPACE_USING_DIRECTIVE
 
@@ -24,7 +29,7 @@ namespace {
 
 const char* const ownRenderer = "HiPR";
 const char* const samplesKey = "numCompletedSamples"; // HdPerfTokens
-constexpr auto pollInterval = std::chrono::milliseconds(10);
+constexpr auto pollInterval = std::chrono::milliseconds(10), batchPollInterval = std::chrono::milliseconds(1);
 
 class Stopwatch {
 public:
@@ -35,25 +40,49 @@ private:
     Clock::time_point _start = Clock::now();
 };
 
+/// When to stop before the picture has converged; 0: no such limit.
+struct Limit {
+    int samples = 0;
+    double seconds = 0;
+};
+
 class Recording {
 public:
-    Recording(const Options& options, const std::atomic<bool>& interrupted);
+    /// `edits` are those of --edits.
+    Recording(const Options& options, const std::vector<Edit>& edits, const std::atomic<bool>& interrupted);
     ExitCode run();
 
 private:
     void configureRenderer();
-    void renderFrame(double frame, FrameReport& report);
-    double progressFraction(const FrameReport& report) const;
-    void writeFrame(FrameReport& report);
+    void open();
+    void recordFrames();
+    void recordEdits();
+    Limit limitBefore(size_t edit) const;
+    void apply(const Edit& edit);
+    bool applyRequests(const Edit& edit);
+    void render(FrameReport& report, const Limit& limit);
+    bool takeBatch(const FrameReport& report);
+    double progressFraction(const FrameReport& report, const Limit& limit) const;
+    void write(FrameReport& report);
+    void writePictures(FrameReport& report);
+    void writeDump(const FrameReport& report);
+    std::string outputPath(const FramePattern& pattern, const FrameReport& report) const;
     void finish() const;
 
     const Options& _options;
+    const std::vector<Edit>& _edits;
     const std::atomic<bool>& _interrupted;
     std::vector<FramePattern> _outputs;
     DisplayOptions _display;
     RecordingReport _report;
+    UsdStageRefPtr _stage;
+    std::vector<double> _frames;
+    View _view;
     Engine _engine;
     Progress _progress;
+    std::unique_ptr<EditFrames> _editFrames;
+    double _picturesTaken = 0; ///< of those that the renderer has published
+    int _batch = 0;            ///< in the picture under way
 };
 
 void requireWritable(const std::string& path) {
@@ -82,8 +111,9 @@ DisplayOptions displayOptions(const Options& options) {
     return display;
 }
 
-Recording::Recording(const Options& options, const std::atomic<bool>& interrupted)
-    : _options(options), _interrupted(interrupted), _display(displayOptions(options)),
+Recording::Recording(const Options& options, const std::vector<Edit>& edits,
+                     const std::atomic<bool>& interrupted)
+    : _options(options), _edits(edits), _interrupted(interrupted), _display(displayOptions(options)),
       _engine(options.renderer, options.device),
       _progress(options.verbosity == Verbosity::Quiet ? nullptr : stderr, isatty(STDERR_FILENO)) {
     for (const std::string& output : options.outputs)
@@ -118,68 +148,156 @@ bool hasPicture(const FrameReport& report) {
 }
 
 ExitCode Recording::run() {
-    const Stopwatch opening;
-    std::vector<std::string> mask = _options.mask;
-    if (!mask.empty() && TfStringStartsWith(_options.camera, "/")) mask.push_back(_options.camera);
-    const UsdStageRefPtr stage = openStage(_options.scene, mask);
-    const std::vector<double> frames =
-        _options.frames.empty() ? std::vector<double>{defaultFrame(stage)} : _options.frames;
-    for (const FramePattern& output : _outputs)
-        requireWritable(output.path(frames.front()));
-    if (!_options.statsFile.empty() && _options.statsFile != "-") requireWritable(_options.statsFile);
-
-    const View view = chooseView(stage, {_options.camera, _options.width, _options.height, _options.purposes},
-                                 frames.front());
-    _report.scene = _options.scene;
-    _report.renderer = _engine.rendererName();
-    _report.camera = view.automatic ? "auto" : view.camera.GetString();
-    _report.settings = settingsSummary(_engine.delegate());
-    _report.width = view.width;
-    _report.height = view.height;
-    _report.openSeconds = opening.seconds();
-
-    if (_options.verbosity != Verbosity::Quiet)
-        std::fprintf(stderr, "recording %s with %s: %d x %d, camera %s\n", _report.scene.c_str(),
-                     _report.renderer.c_str(), view.width, view.height, _report.camera.c_str());
-    _engine.populate(stage, view.camera,
-                     {view.width, view.height, _options.aovs, _options.purposes, _options.refineLevel});
-    for (size_t i = 0; i < frames.size() && !_interrupted; ++i) {
-        FrameReport report;
-        _progress.begin(frames.size() == 1
-                            ? "rendering"
-                            : TfStringPrintf("frame %g (%zu of %zu)", frames[i], i + 1, frames.size()));
-        renderFrame(frames[i], report);
-        if (_interrupted && !hasPicture(report)) break; // an empty file might replace a good one
-        writeFrame(report);
-        _report.frames.push_back(std::move(report));
-    }
+    open();
+    if (_options.editsFile.empty() && _options.editFramesFolder.empty())
+        recordFrames();
+    else
+        recordEdits();
     finish();
     return _interrupted ? ExitInterrupted : ExitOk;
 }
 
-double Recording::progressFraction(const FrameReport& report) const {
-    const VtValue target = VtValue::Cast<double>(
-        _engine.delegate().GetRenderSetting(HdRenderSettingsTokens->convergedSamplesPerPixel));
-    const double samples = target.GetWithDefault<double>(0.0);
-    const double bySamples = samples > 0 ? 100.0 * double(report.samples) / samples : 0.0;
-    const double fraction = statNumber(report.stats, "percentDone", bySamples) / 100.0;
-    return _options.seconds > 0 ? std::max(fraction, report.seconds / _options.seconds) : fraction;
+/// The stage, its camera, and all of it in the renderer.
+void Recording::open() {
+    const Stopwatch opening;
+    std::vector<std::string> mask = _options.mask;
+    if (!mask.empty() && TfStringStartsWith(_options.camera, "/")) mask.push_back(_options.camera);
+    _stage = openStage(_options.scene, mask);
+    _frames = _options.frames.empty() ? std::vector<double>{defaultFrame(_stage)} : _options.frames;
+    FrameReport first;
+    first.frame = _frames.front();
+    for (const FramePattern& output : _outputs)
+        requireWritable(outputPath(output, first));
+    if (!_options.dumpFile.empty() && _options.dumpFile != "-")
+        requireWritable(outputPath(FramePattern(_options.dumpFile), first));
+    if (!_options.statsFile.empty() && _options.statsFile != "-") requireWritable(_options.statsFile);
+    if (!_options.editFramesFolder.empty()) {
+        _editFrames = std::make_unique<EditFrames>(_options.editFramesFolder, _display);
+        _engine.publishEveryBatch();
+    }
+
+    _view = chooseView(_stage, {_options.camera, _options.width, _options.height, _options.purposes},
+                       _frames.front());
+    _report.scene = _options.scene;
+    _report.renderer = _engine.rendererName();
+    _report.camera = _view.automatic ? "auto" : _view.camera.GetString();
+    _report.settings = settingsSummary(_engine.delegate());
+    _report.width = _view.width;
+    _report.height = _view.height;
+    _report.openSeconds = opening.seconds();
+
+    if (_options.verbosity != Verbosity::Quiet && !_options.onlyDump())
+        std::fprintf(stderr, "recording %s with %s: %d x %d, camera %s\n", _report.scene.c_str(),
+                     _report.renderer.c_str(), _view.width, _view.height, _report.camera.c_str());
+    _engine.populate(_stage, _view.camera,
+                     {_view.width, _view.height, _options.aovs, _options.purposes, _options.refineLevel});
 }
 
-void Recording::renderFrame(double frame, FrameReport& report) {
+void Recording::recordFrames() {
+    for (size_t i = 0; i < _frames.size() && !_interrupted; ++i) {
+        FrameReport report;
+        report.frame = _frames[i];
+        _progress.begin(_frames.size() == 1
+                            ? "rendering"
+                            : TfStringPrintf("frame %g (%zu of %zu)", _frames[i], i + 1, _frames.size()));
+        render(report, {0, _options.seconds});
+        if (_interrupted && !hasPicture(report)) break; // an empty file might replace a good one
+        write(report);
+        _report.frames.push_back(std::move(report));
+    }
+}
+
+void Recording::recordEdits() {
+    for (size_t i = 0; i <= _edits.size() && !_interrupted; ++i) {
+        FrameReport report;
+        report.edit = int(i);
+        report.editName = i > 0 ? _edits[i - 1].name : "";
+        if (i > 0) apply(_edits[i - 1]);
+        report.frame = _frames.front();
+        _progress.begin(i > 0 ? _edits[i - 1].title() : "before any edit");
+        render(report, limitBefore(i));
+        if (hasPicture(report) || (i > 0 && !_interrupted))
+            write(report);
+        else if (!_interrupted)
+            printWarning("no picture was done before the first edit: there is no file of it");
+        _report.frames.push_back(std::move(report));
+    }
+}
+
+/// How long the scene after `edit` edits is rendered.
+Limit Recording::limitBefore(size_t edit) const {
+    if (edit == _edits.size()) return {0, _options.seconds};
+    const Edit& next = _edits[edit];
+    if (next.afterSamples) return {*next.afterSamples, 0};
+    if (next.afterSeconds) return {0, std::max(*next.afterSeconds, 1e-9)}; // 0 would be no limit
+    return {0, _options.seconds};
+}
+
+void Recording::apply(const Edit& edit) {
+    bool changed = applyEdit(_stage, edit);
+    if (!edit.usda.empty()) cutMaterialCycles(_stage);
+    try {
+        changed = applyRequests(edit) || changed;
+    } catch (const Failure& failure) {
+        throw Failure(failure.code(), edit.title() + ": " + failure.what());
+    }
+    if (!changed) printWarning(edit.title() + " changes nothing");
+}
+
+/// What an edit asks of the recorder. Returns whether that changes anything.
+bool Recording::applyRequests(const Edit& edit) {
+    HdRenderDelegate& delegate = _engine.delegate();
+    const unsigned int settingsBefore = delegate.GetRenderSettingsVersion();
+    for (const auto& [key, value] : edit.settings)
+        applySetting(delegate, key, value);
+    bool changed = delegate.GetRenderSettingsVersion() != settingsBefore;
+    if (changed) _report.settings = settingsSummary(delegate);
+    if (edit.time) {
+        changed |= *edit.time != _frames.front();
+        _frames.front() = *edit.time;
+    }
+    if (!edit.camera.empty()) {
+        const SdfPath before = _view.camera;
+        _view =
+            chooseView(_stage, {edit.camera, _view.width, _view.height, _options.purposes}, _frames.front());
+        _report.camera = _view.automatic ? "auto" : _view.camera.GetString();
+        changed |= _view.camera != before;
+        _engine.setCamera(_view.camera);
+    }
+    if (!UsdGeomCamera(_stage->GetPrimAtPath(_view.camera)))
+        throw Failure(ExitCamera, "the camera " + _view.camera.GetString() +
+                                      " is gone; name another one with \"camera\"");
+    return changed;
+}
+
+double Recording::progressFraction(const FrameReport& report, const Limit& limit) const {
+    const VtValue target = VtValue::Cast<double>(
+        _engine.delegate().GetRenderSetting(HdRenderSettingsTokens->convergedSamplesPerPixel));
+    const double samples = limit.samples > 0 ? limit.samples : target.GetWithDefault<double>(0.0);
+    const double bySamples = samples > 0 ? double(report.samples) / samples : 0.0;
+    const double fraction =
+        limit.samples > 0 ? bySamples : statNumber(report.stats, "percentDone", 100.0 * bySamples) / 100.0;
+    return limit.seconds > 0 ? std::max(fraction, report.seconds / limit.seconds) : fraction;
+}
+
+void Recording::render(FrameReport& report, const Limit& limit) {
     const Stopwatch watch;
-    report.frame = frame;
-    _engine.setFrame(frame);
+    _batch = 0;
+    _engine.setFrame(report.frame);
     while (true) {
         report.converged = _engine.step();
+        if (_options.onlyDump()) return; // all of the scene is in the renderer
         report.stats = _engine.stats();
         report.seconds = watch.seconds();
         report.samples = long(statNumber(report.stats, samplesKey, 0.0));
         if (report.samples > 0 && report.firstSampleSeconds < 0) report.firstSampleSeconds = report.seconds;
+        const bool tookBatch = takeBatch(report);
         if (report.converged || _interrupted) break;
-        if (_options.seconds > 0 && report.seconds >= _options.seconds && hasPicture(report)) break;
-        _progress.update({progressFraction(report), report.samples, report.seconds});
-        std::this_thread::sleep_for(pollInterval);
+        if (limit.samples > 0 && report.samples >= limit.samples) break;
+        const bool timeIsUp = limit.seconds > 0 && report.seconds >= limit.seconds;
+        if (timeIsUp && (report.edit >= 0 || hasPicture(report))) break; // edits wait for nothing
+        _progress.update({progressFraction(report, limit), report.samples, report.seconds});
+        if (!tookBatch) std::this_thread::sleep_for(_editFrames ? batchPollInterval : pollInterval);
     }
     _progress.end();
     // HiPR always counts samples; when it has no device there is nothing to count.
@@ -188,7 +306,36 @@ void Recording::renderFrame(double frame, FrameReport& report) {
         throw Failure(ExitRender, "the renderer " + _report.renderer + " stopped without a picture");
 }
 
-void Recording::writeFrame(FrameReport& report) {
+/// Adds the picture of a batch to --edit-frames, if there is a new one.
+bool Recording::takeBatch(const FrameReport& report) {
+    if (!_editFrames) return false;
+    const double pictures = statNumber(report.stats, "hipr:pictures", 0.0);
+    if (pictures == _picturesTaken) return false;
+    _picturesTaken = pictures;
+    const Picture picture = _engine.read(); // also lets the renderer go on
+    BatchInfo info{report.edit, report.editName, 0, 0, report.samples, 0};
+    info.seconds = statNumber(report.stats, "totalClockTime", 0.0);
+    info.paths = uint64_t(statNumber(report.stats, "hipr:paths", 0.0));
+    if (info.paths == 0) return true; // still the scene before the edit
+    info.batch = ++_batch;
+    _editFrames->add(picture, info);
+    return true;
+}
+
+std::string Recording::outputPath(const FramePattern& pattern, const FrameReport& report) const {
+    const std::string path = pattern.path(report.frame);
+    if (_options.editsFile.empty()) return path;
+    return editPath(path, report.edit > 0 ? _edits[size_t(report.edit) - 1] : Edit(), _edits.size());
+}
+
+void Recording::write(FrameReport& report) {
+    if (!_outputs.empty()) writePictures(report);
+    if (!_options.dumpFile.empty()) writeDump(report);
+    if (_options.memory) std::fputs(memoryTable(report.stats).c_str(), stdout);
+    std::fflush(stdout);
+}
+
+void Recording::writePictures(FrameReport& report) {
     HdRenderDelegate& delegate = _engine.delegate();
     const bool paused = !report.converged && delegate.IsPauseSupported() && delegate.Pause();
     Picture picture = _engine.read();
@@ -201,15 +348,26 @@ void Recording::writeFrame(FrameReport& report) {
     picture.info.samples = report.samples;
     picture.info.seconds = report.seconds;
     for (const FramePattern& output : _outputs) {
-        const std::string path = output.path(report.frame);
+        const std::string path = outputPath(output, report);
         writePicture(path, picture, _display);
         report.files.push_back(path);
         if (_options.verbosity != Verbosity::Quiet)
             std::fprintf(stderr, "wrote %s (%d x %d, %ld samples, %s)\n", path.c_str(), picture.width,
                          picture.height, report.samples, durationText(report.seconds).c_str());
     }
-    if (_options.memory) std::fputs(memoryTable(report.stats).c_str(), stdout);
-    std::fflush(stdout);
+}
+
+void Recording::writeDump(const FrameReport& report) {
+    const std::string text = _engine.sceneDump();
+    if (_options.dumpFile == "-") {
+        std::fputs(text.c_str(), stdout);
+        return;
+    }
+    const std::string path = outputPath(FramePattern(_options.dumpFile), report);
+    std::ofstream file(path);
+    file << text;
+    file.close();
+    if (!file) throw Failure(ExitOutput, "cannot write '" + path + "'");
 }
 
 void Recording::finish() const {
@@ -223,22 +381,6 @@ void Recording::finish() const {
     file << json;
     file.close();
     if (!file) throw Failure(ExitOutput, "cannot write '" + _options.statsFile + "'");
-}
-
-void printLines(const std::vector<std::string>& lines) {
-    for (const std::string& line : lines)
-        std::printf("%s\n", line.c_str());
-}
-
-void printLists(const Options& options) {
-    if (options.listRenderers) printLines(listRenderers());
-    if (options.listCameras)
-        for (const SdfPath& camera : listCameras(openStage(options.scene, options.mask)))
-            std::printf("%s\n", camera.GetText());
-    if (!options.listSettings && !options.listAovs) return;
-    const Engine engine(options.renderer, options.device);
-    if (options.listSettings) std::fputs(describeSettings(engine.delegate()).c_str(), stdout);
-    if (options.listAovs) printLines(listAovs(engine));
 }
 
 } // namespace
@@ -256,7 +398,9 @@ ExitCode record(const Options& options, const std::atomic<bool>& interrupted) {
         printLists(options);
         return ExitOk;
     }
-    return Recording(options, interrupted).run();
+    const std::vector<Edit> edits =
+        options.editsFile.empty() ? std::vector<Edit>() : readEdits(options.editsFile);
+    return Recording(options, edits, interrupted).run();
 }
 
 } // namespace hipr::record

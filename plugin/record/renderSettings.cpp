@@ -111,10 +111,11 @@ void applySetting(HdRenderDelegate& delegate, const std::string& key, const std:
     const HdRenderSettingDescriptor setting = findSetting(delegate, key);
     const VtValue value = parseLike(setting.defaultValue, text);
     if (value.IsEmpty())
-        throw Failure(ExitUsage, "--set " + key + ": '" + text + "' is no " + typeName(setting.defaultValue));
+        throw Failure(ExitUsage,
+                      "setting '" + key + "': '" + text + "' is no " + typeName(setting.defaultValue));
     delegate.SetRenderSetting(setting.key, value);
     const VtValue now = VtValue::CastToTypeOf(currentValue(delegate, setting), value);
-    if (now != value) throw Failure(ExitUsage, "--set " + key + ": the renderer refuses '" + text + "'");
+    if (now != value) throw Failure(ExitUsage, "setting '" + key + "': the renderer refuses '" + text + "'");
 }
 
 bool hasSetting(const HdRenderDelegate& delegate, const std::string& key) {

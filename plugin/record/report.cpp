@@ -71,6 +71,10 @@ std::string reportJson(const RecordingReport& report) {
     for (const FrameReport& frame : report.frames) {
         Json entry;
         entry["frame"] = frame.frame;
+        if (frame.edit >= 0) {
+            entry["edit"] = frame.edit;
+            entry["name"] = frame.editName;
+        }
         entry["seconds"] = frame.seconds;
         if (frame.firstSampleSeconds >= 0) entry["firstSampleSeconds"] = frame.firstSampleSeconds;
         entry["samples"] = frame.samples;

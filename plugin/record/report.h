@@ -14,6 +14,8 @@ double statNumber(const PXR_NS::VtDictionary& stats, const std::string& key, dou
 
 struct FrameReport {
     double frame = 0;
+    int edit = -1; ///< its number, 0 before the first; -1: the recording has no edits
+    std::string editName;
     double seconds = 0; ///< from the scene edit to the last sample
     double firstSampleSeconds =
         -1;                 ///< until one sample per pixel was done; -1 when the renderer does not tell
