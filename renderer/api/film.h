@@ -21,7 +21,7 @@ enum class AovKind : uint32_t {
     ElementId,   ///< int, authored face index
     Primvar,     ///< float3, a named primvar at the first hit (missing components are 0)
     SampleCount, ///< int, samples of the current scene in the mean of this pixel; 0: it shows an older picture
-    Priority,    ///< float, how much the last edit is estimated to change the pixel's tile, as radiance
+    Priority,    ///< float, by which tiles are ordered: mode delta, the change of radiance; mode paper, see docs/hipr.md
     Age,         ///< int, edits since the pixel's picture was rendered; 0: it is current
     Discovered,  ///< int, 1 where the last edit was found to show, and 0
 };

@@ -36,7 +36,7 @@ uint32_t TilePasses::append(std::vector<gpu::TileWork>& batch, uint32_t& paths, 
             const TileRect r = grid.rect(_tiles[i]);
             const uint32_t count = _level - state.samples, added = r.width * r.height * count;
             if (!batch.empty() && paths + added > maxPaths) break;
-            batch.push_back({r.x, r.y, r.width, r.height, state.samples, count, paths, 1});
+            batch.push_back({r.x, r.y, r.width, r.height, state.samples, count, paths, 1, 0});
             paths += added;
         }
         if (batch.size() > before || _next + taken < _tiles.size()) return taken;
@@ -67,8 +67,9 @@ void TileSchedule::invalidate() {
         std::all_of(_states.begin(), _states.end(), [](const TileState& state) { return state.samples > 0; });
     if (settled) _owed = -double(_floor) * HeadStart * _grid.width * _grid.height;
     for (TileState& state : _states) {
-        if (state.samples > 0) state.priority = 0.f; // what it was discovered for is shown
+        if (state.samples > 0) state.priority = 0.f; // what it was discovered for is rendered
         state.samples = 0;
+        state.measured = false;
         ++state.age;
     }
     _pathsDone = 0;
@@ -82,10 +83,14 @@ void TileSchedule::forgetPriorities() {
 }
 
 void TileSchedule::discover(uint32_t tile, float priority) {
-    _states[tile].priority = std::max(_states[tile].priority, priority);
+    if (_states[tile].measured || !(priority > _states[tile].priority)) return;
+    _states[tile].priority = priority;
+    _unsorted = true;
 }
 
 void TileSchedule::sort(bool everything) {
+    _everything = everything;
+    _unsorted = false;
     std::vector<uint32_t> front, rest;
     for (uint32_t tile = 0; tile < _states.size(); ++tile)
         (_states[tile].priority > 0.f ? front : rest).push_back(tile);
@@ -95,7 +100,7 @@ void TileSchedule::sort(bool everything) {
                      [&](uint32_t a, uint32_t b) { return _states[a].priority > _states[b].priority; });
     std::stable_sort(rest.begin(), rest.end(), [&](uint32_t a, uint32_t b) {
         const TileState &s = _states[a], &t = _states[b];
-        return s.everShown != t.everShown ? t.everShown : s.age > t.age;
+        return (s.shown > 0) != (t.shown > 0) ? t.shown > 0 : s.age > t.age;
     });
     if (everything && !front.empty()) {
         front.insert(front.end(), rest.begin(), rest.end());
@@ -105,34 +110,57 @@ void TileSchedule::sort(bool everything) {
     _rest.restart(std::move(rest), _grid, _states);
 }
 
+void TileSchedule::measured(uint32_t tile, float change) {
+    TileState& state = _states[tile];
+    _unsorted |= (change > 0.f) != (state.priority > 0.f);
+    state.priority = change;
+    state.measured = true;
+    // Two samples at least: an old picture of one is no better than the new one.
+    state.keepsOld = change == 0.f && state.shown > 1;
+}
+
 const std::vector<gpu::TileWork>& TileSchedule::next(uint32_t maxPaths, uint32_t samples) {
     _work.clear();
     _paths = _frontTaken = _restTaken = 0;
     _owedAfter = _owed;
-    const bool frontOpen = !_front.complete(samples);
-    if (frontOpen) {
-        const bool starving = !_rest.tiles().empty() && _rest.firstPass();
-        if (starving) _owedAfter += double(_floor) * maxPaths;
-        // The floor's tiles lead, so that the batch has room for them.
-        const uint32_t tilePaths = _grid.tileSize * _grid.tileSize;
-        if (starving && _owedAfter >= tilePaths) {
-            _restTaken =
-                _rest.append(_work, _paths, std::min(maxPaths, uint32_t(_owedAfter)), 1, _grid, _states);
-            _owedAfter -= _paths;
-        }
+    _samples = samples;
+    const uint32_t first = std::min(1u, samples);
+    if (!_front.complete(first)) {
+        appendFloor(maxPaths, first);
+        _frontTaken = _front.append(_work, _paths, maxPaths, first, _grid, _states);
+    } else if (!_rest.complete(first) && !_front.tiles().empty()) {
+        _restTaken = _rest.append(_work, _paths, maxPaths, first, _grid, _states);
+    } else if (!_front.complete(samples)) {
         _frontTaken = _front.append(_work, _paths, maxPaths, samples, _grid, _states);
     } else {
         _restTaken = _rest.append(_work, _paths, maxPaths, samples, _grid, _states);
     }
+    for (gpu::TileWork& work : _work) {
+        const TileState& state = _states[_grid.at(work.x, work.y)];
+        // What is on display already is an older picture yet: that stays the one to keep.
+        if (work.firstSample == 0 && state.shown > 1 && !state.keepsOld) work.flags = gpu::TILE_SAVES_OLD;
+    }
     return _work;
+}
+
+/// The floor's tiles lead the batch, so that it has room for them.
+void TileSchedule::appendFloor(uint32_t maxPaths, uint32_t samples) {
+    if (_rest.complete(1)) return;
+    _owedAfter += double(_floor) * maxPaths;
+    if (_owedAfter < _grid.tileSize * _grid.tileSize) return;
+    _restTaken =
+        _rest.append(_work, _paths, std::min(maxPaths, uint32_t(_owedAfter)), samples, _grid, _states);
+    _owedAfter -= _paths;
 }
 
 void TileSchedule::advance() {
     for (const gpu::TileWork& work : _work) {
         TileState& state = _states[_grid.at(work.x, work.y)];
-        _neverShown -= state.everShown ? 0 : 1;
-        state.everShown = true;
         state.samples = work.firstSample + work.sampleCount;
+        if (state.samples >= std::min(state.shown, _samples)) state.keepsOld = false;
+        if (state.keepsOld) continue;
+        _neverShown -= state.shown ? 0 : 1;
+        state.shown = state.samples;
         state.age = 0;
     }
     _pathsDone += _paths;
@@ -140,6 +168,7 @@ void TileSchedule::advance() {
     _rest.advance(_restTaken);
     _owed = _owedAfter;
     _work.clear();
+    if (_unsorted) sort(_everything);
 }
 
 uint32_t TileSchedule::samplesDone() const {

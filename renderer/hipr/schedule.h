@@ -11,10 +11,12 @@ namespace hipr {
 
 /// What is known of a tile.
 struct TileState {
-    uint32_t samples = 0;   ///< of the current scene, in the film; 0: the film shows an older picture there
-    uint32_t age = 0;       ///< edits since the picture of the tile was rendered; 0: it is current
-    float priority = 0.f;   ///< how much the edit is believed to show, 0: not discovered
-    bool everShown = false; ///< the film has held samples of this tile since it got its size
+    uint32_t samples = 0;  ///< of the current scene, in the film; 0: the film shows an older picture there
+    uint32_t age = 0;      ///< edits since the picture of the tile was rendered; 0: it is current
+    float priority = 0.f;  ///< how much the edit shows, as estimated or measured; 0: not that anybody knows
+    uint32_t shown = 0;    ///< samples in the mean on display, of whatever scene; 0: nothing was ever shown
+    bool measured = false; ///< the priority is measured, no estimate
+    bool keepsOld = false; ///< on display is the older picture, which the new samples have not changed so far
 };
 
 /// Brings a list of tiles to more and more samples, in order, pass after pass. The first pass takes one
@@ -44,10 +46,18 @@ private:
     uint32_t _next = 0;             ///< tile of the pass under way
 };
 
-/// The order of all tiles. Discovered tiles (priority above 0) come first, the most important ones leading,
-/// and are rendered to the last sample; the others follow, those whose picture is oldest leading. Meanwhile a
-/// share of the work, the floor, brings the others their first sample, so that nothing starves. Without
-/// discovered tiles this is uniform rendering.
+/// The order of all tiles after an edit:
+///   1. Discovered tiles (priority above 0) get their first sample, the most important ones leading. A share
+///   of the
+///      work, the floor, goes to the other tiles meanwhile, so that nothing starves in a stream of edits.
+///   2. The other tiles get their first sample, those whose picture is oldest leading. What samples change is
+///      measured; tiles in which they do are discovered, and those around them.
+///   3. Discovered tiles get the rest of their samples, then all others.
+/// Without discovered tiles this is uniform rendering.
+///
+/// A tile whose first sample differs in no pixel from the same sample of the picture on display shows nothing
+/// of the edit: it keeps that picture on display until it has as many new samples, so that what an edit does
+/// not touch does not turn noisy.
 ///
 /// Whatever the order, every tile gets its samples 0, 1, 2... once: the picture at N samples does not depend
 /// on it.
@@ -61,8 +71,12 @@ public:
     /// Forgets all priorities: the next tiles come in uniform order.
     void forgetPriorities();
 
-    /// Adds to what is known of the edit; a tile keeps its greatest priority. Takes effect with sort().
+    /// Adds to what is believed of the edit: a tile that was not measured keeps its greatest priority. Takes
+    /// effect with the next sort() or advance().
     void discover(uint32_t tile, float priority);
+    /// What is known of a tile: how much its first sample changes the picture. Between next() and advance()
+    /// of the work that holds it.
+    void measured(uint32_t tile, float change);
     /// Orders the tiles. `everything`: the undiscovered ones go behind the discovered ones in the same list,
     /// because the edit shows nearly everywhere.
     void sort(bool everything);
@@ -71,7 +85,7 @@ public:
 
     /// The next work, of about `maxPaths` paths at most (but at least one tile). Empty when every pixel has
     /// `samples` samples. Work is handed out again until advance() accepts it, so an abandoned batch loses
-    /// nothing.
+    /// nothing. Tiles that have an old picture to keep are marked gpu::TILE_SAVES_OLD.
     const std::vector<gpu::TileWork>& next(uint32_t maxPaths, uint32_t samples);
     void advance();
 
@@ -86,16 +100,20 @@ public:
     /// Whether every tile has shown some picture.
     bool everythingShown() const { return _neverShown == 0; }
     /// Whether every discovered tile has a sample of the current scene.
-    bool discoveredRefreshed() const { return !_front.firstPass() || _front.tiles().empty(); }
+    bool discoveredRefreshed() const { return _front.complete(1); }
     uint32_t discoveredTiles() const { return _discovered; }
 
 private:
+    void appendFloor(uint32_t maxPaths, uint32_t samples);
+
     TileGrid _grid;
     std::vector<TileState> _states;
     TilePasses _front, _rest;
     float _floor = 0.125f;
-    double _owed = 0; ///< paths the floor is behind with; below 0: what the discovered tiles have ahead
+    uint32_t _samples = 0; ///< wanted by the last next()
+    double _owed = 0;      ///< paths the floor is behind with; below 0: what the discovered tiles have ahead
     uint32_t _neverShown = 0, _discovered = 0;
+    bool _everything = false, _unsorted = false;
     uint64_t _pathsDone = 0;
 
     std::vector<gpu::TileWork> _work; ///< handed out by next()

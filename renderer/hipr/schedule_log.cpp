@@ -51,13 +51,17 @@ void ScheduleLog::order(const TileSchedule& schedule) {
     end();
 }
 
-void ScheduleLog::batch(const std::vector<gpu::TileWork>& work, uint32_t paths) {
+void ScheduleLog::batch(const std::vector<gpu::TileWork>& work, uint32_t paths,
+                        const TileSchedule& schedule) {
     if (!_file) return;
     begin("batch");
     std::fprintf(_file.get(), ", \"paths\": %u, \"tiles\": [", paths);
-    for (size_t i = 0; i < work.size(); ++i)
-        std::fprintf(_file.get(), "%s[%u, %u, %u, %u, %u, %u]", i ? ", " : "", work[i].x, work[i].y,
-                     work[i].width, work[i].height, work[i].firstSample, work[i].sampleCount);
+    for (size_t i = 0; i < work.size(); ++i) {
+        const gpu::TileWork& w = work[i];
+        const bool shown = !schedule.tiles()[schedule.grid().at(w.x, w.y)].keepsOld;
+        std::fprintf(_file.get(), "%s[%u, %u, %u, %u, %u, %u, %d]", i ? ", " : "", w.x, w.y, w.width,
+                     w.height, w.firstSample, w.sampleCount, int(shown));
+    }
     std::fputs("]", _file.get());
     end();
 }

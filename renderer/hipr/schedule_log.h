@@ -6,7 +6,8 @@
 ///   restart  `kind`: picture, edit, camera, everything; `width`, `height`, `tileSize`
 ///   survey   `paths`: scouts of a batch
 ///   order    `tiles`: [x, y, priority] of discovered tiles; in mode paper first of the active ones alone
-///   batch    `paths`, `tiles`: [x, y, width, height, firstSample, sampleCount]
+///   batch    `paths`, `tiles`: [x, y, width, height, firstSample, sampleCount, shown]; shown is 0 where
+///            the tile keeps its old picture on display, which these samples did not change
 #pragma once
 
 #include <chrono>
@@ -24,7 +25,8 @@ public:
     void restart(const char* kind, const TileGrid& grid);
     void survey(uint32_t paths);
     void order(const TileSchedule& schedule);
-    void batch(const std::vector<gpu::TileWork>& work, uint32_t paths);
+    /// After TileSchedule::advance().
+    void batch(const std::vector<gpu::TileWork>& work, uint32_t paths, const TileSchedule& schedule);
 
 private:
     struct Close {

@@ -21,12 +21,11 @@ namespace hipr {
 class Survey {
 public:
     /// `rate`: share of the picture's pixels in the first round. `turn` (say, the number of the edit) chooses
-    /// which pixels, so that a stream of edits looks at all of them in time.
-    void begin(const TileGrid& grid, float rate, uint32_t turn);
+    /// which pixels, so that a stream of edits looks at all of them in time. `spread`: also look closely at
+    /// tiles in and around which a change was seen; who measures what he renders has no need to.
+    void begin(const TileGrid& grid, float rate, uint32_t turn, bool spread = false);
     /// A tile in which something that changed is or was; looked at closely. Between begin() and next().
     void suspect(uint32_t tile);
-    /// A tile that needs no closer look: it will be rendered anyway. Between begin() and next().
-    void settle(uint32_t tile);
 
     /// The next scouts, about `maxPaths` of them at most. Empty when the survey is complete. Handed out again
     /// until report() brings their results, one a path, in the order of the slots.
@@ -45,19 +44,22 @@ public:
 
     /// How much the edit shows in each tile, 0: not at all as far as is known. The unit is radiance.
     std::vector<float> priorities() const;
+    /// Mean over the scouts and channels, of the edited scene.
+    float meanRadiance() const;
 
 private:
     struct Tile {
         uint32_t scouts = 0, changed = 0;
-        bool suspected = false, settled = false;
+        bool suspected = false;
     };
     void planRound();
     void planLattice();
-    void planTiles();
-    bool wanted(uint32_t tile) const;
+    void spreadSuspicion();
+    void planSuspects();
     void append(const gpu::TileWork& work);
 
     TileGrid _grid;
+    bool _spread = false;
     uint32_t _stride = 8, _turn = 0, _round = 0;
     std::vector<Tile> _tiles;
     std::vector<gpu::TileWork> _planned; ///< of the round under way

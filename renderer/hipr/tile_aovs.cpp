@@ -9,9 +9,9 @@ uint32_t wordOf(AovKind kind, const TileState& tile) {
     uint32_t word = 0;
     switch (kind) {
     case AovKind::SampleCount:
-        return tile.samples;
+        return tile.keepsOld ? 0 : tile.samples;
     case AovKind::Age:
-        return tile.everShown ? tile.age : uint32_t(-1);
+        return tile.shown ? tile.age : uint32_t(-1);
     case AovKind::Discovered:
         return tile.priority > 0.f ? 1 : 0;
     case AovKind::Priority:

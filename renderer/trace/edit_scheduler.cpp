@@ -9,6 +9,14 @@ namespace {
 
 /// Share of the tiles beyond which an edit shows nearly everywhere.
 constexpr double WideEdit = 0.5;
+/// Least change that scouts must see in and around a tile to make it active, in mean radiances of the picture.
+constexpr float SeedChange = 0.02f;
+/// Steps of gpu::TileChange in one mean radiance of the picture.
+constexpr float StepsPerRadiance = 1024.f;
+/// A tile whose samples changed by less than this, in mean radiances, says nothing of its neighbours.
+constexpr float LeastChange = 0.01f;
+/// What a tile is expected to change by, as a share of a neighbour's change.
+constexpr float NeighbourShare = 0.5f;
 
 } // namespace
 
@@ -28,7 +36,7 @@ void EditScheduler::start(const Settings& settings, const gpu::CameraRecord& cam
     if (settings.mode == "uniform" || !_schedule.everythingShown()) return _changed.clear();
     _settings = settings;
     _camera = camera;
-    _survey.begin(_schedule.grid(), settings.scoutRate, ++_edits);
+    _survey.begin(_schedule.grid(), settings.scoutRate, ++_edits, discovers(settings));
     if (!discovers(settings)) {
         for (const WorldBox& box : boxes)
             forTilesSeeing(_schedule.grid(), camera, box, [&](uint32_t tile) { _survey.suspect(tile); });
@@ -53,8 +61,6 @@ void EditScheduler::findActive() {
     if (!_film.previousHits()) // nobody knows what was seen where the objects have been
         for (const WorldBox& box : _changed.boxes())
             forTilesSeeing(_schedule.grid(), _camera, box, [&](uint32_t tile) { _active[tile] = 1; });
-    for (uint32_t tile = 0; tile < _active.size(); ++tile)
-        if (_active[tile]) _survey.settle(tile);
     _changed.clear();
     _phase = Phase::Survey;
 }
@@ -78,17 +84,17 @@ bool EditScheduler::scout(uint32_t maxPaths, const std::atomic<bool>& cancel) {
 }
 
 void EditScheduler::finishSurvey() {
-    if (discovers(_settings))
-        startDiscovery();
-    else
-        order(_survey.priorities());
+    if (discovers(_settings)) return startDiscovery();
+    order(_survey.priorities());
+    if (_survey.meanRadiance() > 0.f) _phase = Phase::Follow;
 }
 
 /// Adds what the scouts saw to the active tiles and sends their first samples on their way.
 void EditScheduler::startDiscovery() {
+    const std::vector<float> changes = _survey.priorities();
     uint32_t count = 0;
     for (uint32_t tile = 0; tile < _active.size(); ++tile) {
-        _active[tile] |= _survey.sawChange(tile);
+        _active[tile] |= changes[tile] > SeedChange * _survey.meanRadiance();
         count += _active[tile];
     }
     // Without active tiles there are no paths to learn from, and when nearly all are, nothing to be learnt.
@@ -112,6 +118,27 @@ void EditScheduler::traced(bool done) {
     for (uint32_t tile = 0; tile < _active.size(); ++tile)
         if (_active[tile] && _schedule.tiles()[tile].samples == 0) return;
     order(discoveredPriorities(_weights, _active));
+}
+
+float EditScheduler::changeScale() const {
+    return _phase == Phase::Follow ? StepsPerRadiance / _survey.meanRadiance() : 0.f;
+}
+
+/// Where new samples show a change, it goes on next door: tiles around are next.
+void EditScheduler::measured(const std::vector<gpu::TileWork>& tiles) {
+    if (_phase != Phase::Follow) return;
+    const float radiance = _survey.meanRadiance();
+    for (size_t i = 0; i < tiles.size(); ++i) {
+        if (tiles[i].firstSample > 0) continue;
+        const uint32_t tile = _schedule.grid().at(tiles[i].x, tiles[i].y);
+        const float pixels = float(tiles[i].width * tiles[i].height);
+        const float change = float(_changes[i].change) / (pixels * StepsPerRadiance); // in mean radiances
+        _schedule.measured(tile, change * radiance);
+        if (change < LeastChange) continue;
+        forNeighbours(_schedule.grid(), tile, [&](uint32_t neighbour) {
+            _schedule.discover(neighbour, NeighbourShare * change * radiance);
+        });
+    }
 }
 
 void EditScheduler::order(const std::vector<float>& priorities) {

@@ -13,9 +13,10 @@
 
 namespace hipr {
 
-/// Both modes ask scouts (Survey). In delta mode what they tell is the order. In paper mode tiles in which
-/// they or the first hits saw the edit are active: those are rendered first, one sample a pixel, and their
-/// paths and shadow rays tell which tiles come next.
+/// Both modes ask scouts (Survey). In delta mode what they tell is the first order; from then on every tile's
+/// first samples tell how much it changes, and that its neighbours may. In paper mode tiles in which they or
+/// the first hits saw the edit are active: those are rendered first, one sample a pixel, and their paths and
+/// shadow rays tell which tiles come next.
 class EditScheduler {
 public:
     EditScheduler(Device& device, GpuScene& scene, FilmBuffers& film, PathTracer& tracer,
@@ -46,17 +47,24 @@ public:
     /// One batch of work of at most `maxPaths` paths. False when `cancel` was seen.
     bool search(uint32_t maxPaths, const std::atomic<bool>& cancel);
     /// Whether the order of the tiles is not known yet.
-    bool busy() const { return _phase != Phase::Idle; }
+    bool busy() const { return _phase != Phase::Idle && _phase != Phase::Follow; }
 
     /// What batches of samples are to be traced with, if they are to discover.
     DiscoveryPasses* discovery() { return _phase == Phase::Discover ? _passes.get() : nullptr; }
     /// After a batch of samples: `done`, or abandoned.
     void traced(bool done);
 
+    /// Delta mode: what batches of samples change is measured. For gpu::TraceRecord::changeScale, and where
+    /// the changes go; 0 and null when nobody asks for them.
+    float changeScale() const;
+    std::vector<gpu::TileChange>* changes() { return _phase == Phase::Follow ? &_changes : nullptr; }
+    /// What changes() holds is of these tiles; before the schedule goes on.
+    void measured(const std::vector<gpu::TileWork>& tiles);
+
     uint64_t scoutPaths() const { return _survey.pathsTraced(); }
 
 private:
-    enum class Phase { Idle, Active, Survey, Discover };
+    enum class Phase { Idle, Active, Survey, Discover, Follow };
 
     void findActive();
     bool scout(uint32_t maxPaths, const std::atomic<bool>& cancel);
@@ -78,6 +86,7 @@ private:
     gpu::CameraRecord _camera{};
     Survey _survey;
     std::vector<gpu::ScoutResult> _scoutResults;
+    std::vector<gpu::TileChange> _changes;
     ChangedElements _changed; ///< since tiles were last marked active
     std::vector<uint32_t> _active;
     std::vector<uint64_t> _weights;

@@ -46,7 +46,7 @@ void FilmBuffers::setDesc(const FilmDesc& desc) {
 
 void FilmBuffers::clear() {
     _width = _height = 0;
-    _sums = {}, _firstSamples = {}, _visibility = {}, _previousHits = {}, _targets = {};
+    _sums = {}, _oldPicture = {}, _firstSamples = {}, _visibility = {}, _previousHits = {}, _targets = {};
     _firstHits.clear();
     _hasPrevious = false;
 }
@@ -60,6 +60,7 @@ void FilmBuffers::refuse(const std::string& reason) {
 
 void FilmBuffers::allocate() {
     _sums = filled(pixels() * sizeof(gpu::FilmPixel), 0);
+    _oldPicture = _device.createBuffer(pixels() * sizeof(gpu::OldPixel), MemoryUse::Device, "Film");
     _firstSamples = _device.createBuffer(pixels() * sizeof(glm::vec3), MemoryUse::Device, "Film");
     std::vector<gpu::AovTarget> targets;
     for (const AovRequest& request : _desc.aovs) {
@@ -108,6 +109,7 @@ Buffer FilmBuffers::filled(uint64_t bytes, uint32_t word) {
 
 void FilmBuffers::describe(gpu::TraceRecord& record) const {
     record.film = _sums ? _sums.address() : 0;
+    record.oldPicture = _oldPicture ? _oldPicture.address() : 0;
     record.firstSamples = _firstSamples ? _firstSamples.address() : 0;
     record.visibility = _visibility ? _visibility.address() : 0;
     record.aovs = _targets ? _targets.address() : 0;
@@ -120,12 +122,12 @@ bool FilmBuffers::holds(const AovRequest& aov) const {
     return std::find(_desc.aovs.begin(), _desc.aovs.end(), aov) != _desc.aovs.end();
 }
 
-bool FilmBuffers::read(const AovRequest& aov, void* dst, size_t words) const {
+bool FilmBuffers::read(const AovRequest& aov, const TileSchedule& schedule, void* dst, size_t words) const {
     if (!holds(aov)) return false;
     if (words != pixels() * aovFormat(aov.kind).components) return false;
     if (words == 0) return true;
     if (isSum(aov.kind)) {
-        readSums(aov.kind, static_cast<uint32_t*>(dst));
+        readSums(aov.kind, schedule, static_cast<float*>(dst));
         return true;
     }
     for (const FirstHitAov& firstHit : _firstHits)
@@ -133,20 +135,34 @@ bool FilmBuffers::read(const AovRequest& aov, void* dst, size_t words) const {
     return true;
 }
 
-void FilmBuffers::readSums(AovKind kind, uint32_t* dst) const {
-    std::vector<gpu::FilmPixel> copy;
-    const gpu::FilmPixel* sums = _sums.mapped<gpu::FilmPixel>();
-    if (!sums) {
-        copy.resize(pixels());
-        _device.download(_sums, copy.data(), copy.size() * sizeof(gpu::FilmPixel));
-        sums = copy.data();
-    }
-    const uint32_t components = aovFormat(kind).components;
-    for (uint64_t i = 0; i < pixels(); ++i) {
-        const gpu::FilmPixel& sum = sums[i];
-        const float weight = sum.count ? 1.f / float(sum.count) : 0.f;
-        const glm::vec4 mean = (kind == AovKind::Color ? sum.color : glm::vec4(sum.albedo, 0.f)) * weight;
-        std::memcpy(dst + i * components, &mean, components * sizeof(float));
+/// The buffer's content where the host can read it.
+template <class T> const T* FilmBuffers::hostCopy(const Buffer& buffer, std::vector<T>& copy) const {
+    if (const T* mapped = buffer.mapped<T>()) return mapped;
+    copy.resize(pixels());
+    _device.download(buffer, copy.data(), copy.size() * sizeof(T));
+    return copy.data();
+}
+
+void FilmBuffers::readSums(AovKind kind, const TileSchedule& schedule, float* dst) const {
+    std::vector<gpu::FilmPixel> sumCopy;
+    std::vector<gpu::OldPixel> oldCopy;
+    const gpu::FilmPixel* sums = hostCopy(_sums, sumCopy);
+    const gpu::OldPixel* old = nullptr; // few pictures need it
+    const TileGrid& grid = schedule.grid();
+    const size_t components = aovFormat(kind).components;
+    const bool color = kind == AovKind::Color;
+    for (uint32_t tile = 0; tile < grid.count(); ++tile) {
+        const bool keepsOld = schedule.tiles()[tile].keepsOld;
+        if (keepsOld && !old) old = hostCopy(_oldPicture, oldCopy);
+        const TileRect r = grid.rect(tile);
+        for (uint32_t y = r.y; y < r.y + r.height; ++y)
+            for (size_t i = size_t(y) * grid.width + r.x, end = i + r.width; i < end; ++i) {
+                const float weight = sums[i].count ? 1.f / float(sums[i].count) : 0.f;
+                const glm::vec4 mean =
+                    keepsOld ? (color ? old[i].color : glm::vec4(old[i].albedo, 0.f))
+                             : (color ? sums[i].color : glm::vec4(sums[i].albedo, 0.f)) * weight;
+                std::memcpy(dst + i * components, &mean, components * sizeof(float));
+            }
     }
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "renderer/api/film.h"
+#include "renderer/hipr/schedule.h"
 #include "renderer/shading/names.h"
 #include "renderer/vulkan/device.h"
 #include "shaders/shared/scene.h"
@@ -28,8 +29,8 @@ public:
     /// Whether first hits are to be found: an AOV shows them, or discovery needs them.
     bool wantsFirstHits() const { return !_firstHits.empty() || _keepsHits; }
 
-    /// Whether first hits are kept as well as shown, those of the scene before the last edit too. Returns whether
-    /// they have to be found anew.
+    /// Whether first hits are kept as well as shown, those of the scene before the last edit too. Returns
+    /// whether they have to be found anew.
     bool keepHits(bool keep);
     /// The first hits, which are complete, become those before the edit.
     void retireHits();
@@ -42,7 +43,7 @@ public:
 
     bool holds(const AovRequest& aov) const;
     /// See Renderer::readAov(); for AOVs that are not of tiles (renderer/hipr/tile_aovs.h).
-    bool read(const AovRequest& aov, void* dst, size_t words) const;
+    bool read(const AovRequest& aov, const TileSchedule& schedule, void* dst, size_t words) const;
 
 private:
     struct FirstHitAov {
@@ -53,14 +54,15 @@ private:
     void allocate();
     void refuse(const std::string& reason);
     Buffer filled(uint64_t bytes, uint32_t word);
-    void readSums(AovKind kind, uint32_t* dst) const;
+    void readSums(AovKind kind, const TileSchedule& schedule, float* dst) const;
+    template <class T> const T* hostCopy(const Buffer& buffer, std::vector<T>& copy) const;
     void createHits();
 
     Device& _device;
     NameTable& _names;
     FilmDesc _desc; ///< as asked for
     uint32_t _width = 0, _height = 0;
-    Buffer _sums, _firstSamples, _visibility, _previousHits, _targets;
+    Buffer _sums, _oldPicture, _firstSamples, _visibility, _previousHits, _targets;
     bool _keepsHits = false, _hasPrevious = false;
     std::vector<FirstHitAov> _firstHits;
 };

@@ -120,7 +120,12 @@ bool PathTracer::tracePaths(Steps& steps, const std::vector<gpu::TileWork>& work
 }
 
 bool PathTracer::trace(Traversal& traversal, const std::vector<gpu::TileWork>& tiles, uint32_t paths,
-                       const std::atomic<bool>& cancel, DiscoveryPasses* discovery) {
+                       const std::atomic<bool>& cancel, DiscoveryPasses* discovery,
+                       std::vector<gpu::TileChange>* changes) {
+    if (changes) {
+        changes->assign(tiles.size(), {});
+        _device.upload(_buffers.tileChanges, changes->data(), changes->size() * sizeof(gpu::TileChange));
+    }
     Steps steps(_device, traversal, _scene, _profile);
     if (!tracePaths(steps, tiles, paths, cancel, {discovery, false})) return false;
     uint32_t pixels = 0; // of the largest tile
@@ -130,6 +135,8 @@ bool PathTracer::trace(Traversal& traversal, const std::vector<gpu::TileWork>& t
         kernel(KernelId::Resolve).dispatch(cmd, &p, groupsOf(pixels), count);
     });
     steps.flush();
+    if (changes)
+        _device.download(_buffers.tileChanges, changes->data(), changes->size() * sizeof(gpu::TileChange));
     return true;
 }
 

@@ -57,11 +57,14 @@ public:
 
     /// Renders the tiles and adds them to the film. False when `cancel` was seen: then the film is as before.
     /// `discovery`, if any, gets the weights of this batch.
+    /// `changes`: if not null, what the tiles' sample 0 changed, one entry a tile (TraceRecord::changeScale
+    /// must be above 0).
     bool trace(Traversal& traversal, const std::vector<gpu::TileWork>& tiles, uint32_t paths,
-               const std::atomic<bool>& cancel, DiscoveryPasses* discovery = nullptr);
+               const std::atomic<bool>& cancel, DiscoveryPasses* discovery = nullptr,
+               std::vector<gpu::TileChange>* changes = nullptr);
 
-    /// Traces the work's samples (sample 0 of their pixels) and compares them with the picture on display, which
-    /// stays as it is. `results`: one a path, in the order of the slots. False when `cancel` was seen.
+    /// Traces the work's samples (sample 0 of their pixels) and compares them with the picture on display,
+    /// which stays as it is. `results`: one a path, in the order of the slots. False when `cancel` was seen.
     bool scout(Traversal& traversal, const std::vector<gpu::TileWork>& work, uint32_t paths,
                const std::atomic<bool>& cancel, std::vector<gpu::ScoutResult>& results,
                DiscoveryPasses* discovery = nullptr);

@@ -240,6 +240,7 @@ bool RendererImpl::setup() {
     record.fireflyClamp = _settings.fireflyClamp;
     record.seed = uint32_t(_settings.seed);
     record.discovery = _edits.address();
+    record.changeScale = _edits.changeScale();
     _tracer.setup(record, *camera, _scene.hasNonOpaque());
     _setupPending = false;
     return true;
@@ -264,6 +265,7 @@ bool RendererImpl::renderBatch() {
 bool RendererImpl::search() {
     const auto start = Clock::now();
     const bool done = _edits.search(batchPaths(), _cancel);
+    _setupPending |= !_edits.searching(); // what batches are to measure
     count(0, secondsSince(start));
     std::lock_guard<std::mutex> lock(_progressMutex);
     _progress.scoutPaths = _edits.scoutPaths();
@@ -289,10 +291,13 @@ bool RendererImpl::renderSamples() {
     const std::vector<gpu::TileWork>& tiles = _schedule.next(batchPaths(), samples);
     const uint32_t paths = _schedule.pathCount();
     if (!tiles.empty()) {
-        const bool done = _tracer.trace(_scene.traversal(), tiles, paths, _cancel, _edits.discovery());
+        const bool done =
+            _tracer.trace(_scene.traversal(), tiles, paths, _cancel, _edits.discovery(), _edits.changes());
         if (!done) return _edits.traced(false), false;
-        _log.batch(tiles, paths);
+        _edits.measured(tiles);
+        const std::vector<gpu::TileWork> rendered = tiles;
         _schedule.advance();
+        _log.batch(rendered, paths, _schedule);
         _edits.traced(true);
         _batch.report(paths, secondsSince(start));
     }
@@ -332,7 +337,7 @@ Progress RendererImpl::progress() const {
 
 bool RendererImpl::readAov(const AovRequest& aov, void* dst, size_t words) {
     return guarded([&] {
-        if (!isTileAov(aov.kind)) return _film.read(aov, dst, words);
+        if (!isTileAov(aov.kind)) return _film.read(aov, _schedule, dst, words);
         if (!_film.holds(aov) || words != _film.pixels()) return false;
         fillTileAov(aov.kind, _schedule, static_cast<uint32_t*>(dst));
         return true;

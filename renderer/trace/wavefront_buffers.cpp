@@ -15,6 +15,7 @@ WavefrontBuffers::WavefrontBuffers(Device& device, uint32_t capacity) : capacity
     shadowWork = make(capacity, sizeof(gpu::ShadowWork));
     shadowResults = make(capacity, sizeof(uint32_t));
     transmitHits = make(capacity, sizeof(gpu::Hit));
+    tileChanges = make(capacity, sizeof(gpu::TileChange));
     scoutResults = make(capacity, sizeof(gpu::ScoutResult));
     for (int i = 0; i < 2; ++i) {
         rays[i] = make(capacity, sizeof(gpu::Ray));
@@ -38,6 +39,7 @@ void WavefrontBuffers::describe(gpu::TraceRecord& record) const {
     record.shadowWork = shadowWork.address();
     record.shadowResults = shadowResults.address();
     record.transmitHits = transmitHits.address();
+    record.tileChanges = tileChanges.address();
     record.scoutResults = scoutResults.address();
     for (int i = 0; i < 2; ++i) {
         record.rays[i] = rays[i].address();

@@ -21,7 +21,7 @@ struct WavefrontBuffers {
 
     const uint32_t capacity; ///< paths
     Buffer headers, counters, tiles, paths, hits, shadowRays, shadowWork, shadowResults, transmitHits,
-        scoutResults;
+        scoutResults, tileChanges;
     Buffer rays[2], raySlots[2], transmitRays[2], transmitWork[2];
 };
 

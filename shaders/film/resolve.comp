@@ -14,7 +14,30 @@ void addTo(inout vec3 sum, inout vec3 error, vec3 value) {
     sum = next;
 }
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer FirstSampleRef { vec3 v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FirstSampleRef { vec3 v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer OldPictureRef { OldPixel v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TileChangeRef { TileChange v[]; };
+
+// Keeps a pixel's sample 0 for comparisons to come, and compares it with the one it replaces.
+void replaceFirstSample(TraceRecord trace, uint pixel, vec3 radiance) {
+    if (trace.changeScale > 0.0) {
+        const vec3 difference = (radiance - FirstSampleRef(trace.firstSamples).v[pixel]) * (trace.changeScale / 3.0);
+        const float change = min(dot(abs(difference), vec3(1.0)), MAX_PIXEL_CHANGE);
+        const float signedChange = clamp(dot(difference, vec3(1.0)), -MAX_PIXEL_CHANGE, MAX_PIXEL_CHANGE);
+        TileChangeRef changes = TileChangeRef(trace.tileChanges);
+        if (change > 0.0) {
+            atomicAdd(changes.v[gl_WorkGroupID.y].change, uint(change));
+            atomicAdd(changes.v[gl_WorkGroupID.y].difference, int(signedChange));
+        }
+    }
+    FirstSampleRef(trace.firstSamples).v[pixel] = radiance;
+}
+
+void saveOld(TraceRecord trace, uint pixel) {
+    const FilmPixel old = FilmRef(trace.film).v[pixel];
+    const float weight = 1.0 / float(max(old.count, 1u));
+    OldPictureRef(trace.oldPicture).v[pixel] = OldPixel(old.color * weight, old.albedo * weight);
+}
 
 void main() {
     const TraceRecord trace = TraceRecordRef(push.record).v;
@@ -26,11 +49,12 @@ void main() {
     // The first sample replaces what an earlier picture left in the pixel.
     FilmPixel sum = FilmPixel(vec4(0.0), vec3(0.0), 0u, vec3(0.0), vec3(0.0));
     if (tile.firstSample != 0u) sum = FilmRef(trace.film).v[pixel];
+    if ((tile.flags & TILE_SAVES_OLD) != 0u) saveOld(trace, pixel);
     vec3 color = sum.color.rgb;
     for (uint i = 0u; i < tile.sampleCount; ++i) {
         const PathState path = PathRef(trace.paths).v[tile.firstSlot + local * tile.sampleCount + i];
         const vec3 radiance = pathRadiance(trace, path);
-        if (i == 0u && tile.firstSample == 0u) FirstSampleRef(trace.firstSamples).v[pixel] = radiance;
+        if (i == 0u && tile.firstSample == 0u) replaceFirstSample(trace, pixel, radiance);
         addTo(color, sum.colorError, radiance);
         addTo(sum.albedo, sum.albedoError, path.albedo);
         sum.color.a += path.alpha; // whole numbers

@@ -12,7 +12,9 @@ struct TileWork {
     uint sampleCount;
     uint firstSlot;
     uint stride;             // distance of the lattice's pixels; 1: a rectangle of the film
+    uint flags;              // TILE_*
 };
+HIPR_CONST uint TILE_SAVES_OLD = 1u; // the mean on display goes to TraceRecord::oldPicture before sample 0 replaces it
 
 // Pinhole or orthographic, from matrices. The ray through NDC (x, y) has
 //   direction = normalize(direction + x * directionX + y * directionY),
@@ -39,7 +41,7 @@ struct VisibilityRecord {
     uint primitive;
     float u, v;
     float cameraDepth;       // depth, see CameraRecord
-    uint object;             // ObjectId value, 0: nothing; this and the next field outlive edits, `instance` does not
+    uint object;             // ObjectId value; 0: nothing. With the next field, what is seen whatever the order of instances
     uint objectInstance;     // index into InstancesDesc::transforms
 };
 
@@ -82,6 +84,20 @@ struct ScoutResult {
     float difference;        // mean over the channels of new - old
     float radiance;          // mean over the channels of new
 };
+
+// The picture on display before an edit, where it stays there for a while.
+struct OldPixel {
+    vec4 color;
+    vec3 albedo;
+};
+
+// How the first new samples of a work item differ from the picture on display: sums over its pixels, in units of
+// 1 / TraceRecord::changeScale, whole numbers so that no order of adding shows.
+struct TileChange {
+    uint change;             // of the mean over the channels of |new - old|
+    int difference;          // of the mean over the channels of new - old
+};
+HIPR_CONST float MAX_PIXEL_CHANGE = 65535.0f; // in the same units; 2^15 pixels fit
 
 // One AOV that is resolved from the first hit; one value a pixel.
 struct AovTarget {
@@ -137,8 +153,10 @@ struct TraceRecord {
     uint64_t transmitHits;
     uint64_t film;           // FilmPixel[]
     uint64_t visibility;     // VisibilityRecord[]
+    uint64_t oldPicture;     // OldPixel[]
     uint64_t firstSamples;   // vec3[]: radiance of each pixel's sample 0 in the picture on display
     uint64_t scoutResults;   // ScoutResult[]
+    uint64_t tileChanges;    // TileChange[]: one a work item
     uint64_t aovs;           // AovTarget[aovCount]
     uint64_t discovery;      // DiscoveryRecord (hipr.h), or 0
     uint aovCount;
@@ -149,7 +167,7 @@ struct TraceRecord {
     float filterWidth;
     float fireflyClamp;
     uint seed;
-    uint pad;
+    float changeScale;       // 0: nobody asks for tileChanges
 };
 
 // Push constants of every wavefront kernel.

@@ -101,3 +101,99 @@ TEST(BatchSize, FollowsTheClock) {
     batch.report(10, 0.001); // a small rest says nothing about full batches
     EXPECT_EQ(batch.paths(), hipr::BatchSize::Smallest);
 }
+
+namespace {
+
+/// Renders the next batch; `change` tells what the first samples of a tile change.
+template <class Change>
+uint32_t step(TileSchedule& schedule, uint32_t maxPaths, uint32_t samples, Change&& change) {
+    const std::vector<TileWork>& work = schedule.next(maxPaths, samples);
+    for (const TileWork& tile : work)
+        if (tile.firstSample == 0)
+            schedule.measured(schedule.grid().at(tile.x, tile.y), change(schedule.grid().at(tile.x, tile.y)));
+    const uint32_t paths = schedule.pathCount();
+    schedule.advance();
+    return paths;
+}
+
+/// A picture of 4 x 4 tiles with all its samples, and then an edit.
+TileSchedule edited(uint32_t samples) {
+    TileSchedule schedule;
+    schedule.reset({64, 64, 16});
+    while (!schedule.next(4096, samples).empty())
+        schedule.advance();
+    schedule.invalidate();
+    return schedule;
+}
+
+} // namespace
+
+TEST(TileSchedule, DiscoveredTilesComeFirstInTheirOrder) {
+    TileSchedule schedule = edited(4);
+    schedule.setFloor(0.f);
+    schedule.discover(5, 1.f);
+    schedule.discover(9, 3.f);
+    schedule.discover(2, 2.f);
+    schedule.sort(false);
+    const std::vector<TileWork> work = schedule.next(3 * 256, 4);
+    ASSERT_EQ(work.size(), 3u);
+    EXPECT_EQ(schedule.grid().at(work[0].x, work[0].y), 9u);
+    EXPECT_EQ(schedule.grid().at(work[1].x, work[1].y), 2u);
+    EXPECT_EQ(schedule.grid().at(work[2].x, work[2].y), 5u);
+}
+
+TEST(TileSchedule, EveryTileIsLookedAtBeforeAnyGetsMore) {
+    TileSchedule schedule = edited(8);
+    schedule.discover(5, 1.f);
+    schedule.sort(false);
+    uint64_t paths = 0;
+    while (schedule.samplesDone() == 0) {
+        paths += step(schedule, 512, 8, [](uint32_t tile) { return tile == 5 || tile == 6 ? 1.f : 0.f; });
+        ASSERT_LE(paths, 64u * 64);
+    }
+    EXPECT_EQ(paths, 64u * 64);
+    EXPECT_EQ(schedule.discoveredTiles(), 2u);
+    while (schedule.tiles()[0].samples < 2) // then those that changed get all, before the others
+        step(schedule, 512, 8, [](uint32_t) { return 0.f; });
+    EXPECT_EQ(schedule.tiles()[5].samples, 8u);
+    EXPECT_EQ(schedule.tiles()[6].samples, 8u);
+}
+
+TEST(TileSchedule, UnchangedTilesKeepTheirPictureUntilTheNewOneIsAsGood) {
+    TileSchedule schedule = edited(8);
+    schedule.discover(5, 1.f);
+    schedule.sort(false);
+    std::vector<uint32_t> saved;
+    while (schedule.samplesDone() == 0) {
+        for (const TileWork& tile : schedule.next(512, 8))
+            if (tile.flags & hipr::gpu::TILE_SAVES_OLD) saved.push_back(schedule.grid().at(tile.x, tile.y));
+        step(schedule, 512, 8, [](uint32_t tile) { return tile == 5 ? 1.f : 0.f; });
+    }
+    EXPECT_EQ(saved.size(), 16u);
+    EXPECT_FALSE(schedule.tiles()[5].keepsOld);
+    EXPECT_EQ(schedule.tiles()[5].age, 0u);
+    EXPECT_TRUE(schedule.tiles()[0].keepsOld);
+    EXPECT_EQ(schedule.tiles()[0].age, 1u);
+    while (schedule.tiles()[0].samples < 8) {
+        EXPECT_TRUE(schedule.tiles()[0].keepsOld);
+        step(schedule, 512, 8, [](uint32_t) { return 0.f; });
+    }
+    EXPECT_FALSE(schedule.tiles()[0].keepsOld);
+    EXPECT_EQ(schedule.tiles()[0].age, 0u);
+}
+
+// In a stream of edits that all show in the same tiles the others get their share.
+TEST(TileSchedule, NothingStarvesInAStreamOfEdits) {
+    TileSchedule changing = edited(4);
+    uint32_t oldest = 0;
+    for (int edit = 0; edit < 200; ++edit) {
+        changing.invalidate();
+        for (uint32_t tile = 0; tile < 8; ++tile)
+            changing.discover(tile, 1.f);
+        changing.sort(false);
+        step(changing, 1024, 4, [](uint32_t) { return 1.f; });
+        for (uint32_t tile = 8; tile < 16; ++tile)
+            oldest = std::max(oldest, changing.tiles()[tile].age);
+    }
+    EXPECT_LT(oldest, 40u);
+}
