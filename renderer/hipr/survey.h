@@ -39,8 +39,6 @@ public:
     /// Whether the next scouts are of the first round, one for every 1 / rate pixels.
     bool firstRound() const { return _round == 0 || (_round == 1 && _next < _planned.size()); }
     float pixelsPerScout() const { return float(_stride * _stride); }
-    /// Whether a scout saw the edit in a tile.
-    bool sawChange(uint32_t tile) const { return _tiles[tile].changed > 0; }
 
     /// How much the edit shows in each tile, 0: not at all as far as is known. The unit is radiance.
     std::vector<float> priorities() const;

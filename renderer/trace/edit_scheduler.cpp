@@ -9,7 +9,7 @@ namespace {
 
 /// Share of the tiles beyond which an edit shows nearly everywhere.
 constexpr double WideEdit = 0.5;
-/// Least change that scouts must see in and around a tile to make it active, in mean radiances of the picture.
+/// Least change that scouts must see in and around a tile to make it active, in mean radiances.
 constexpr float SeedChange = 0.02f;
 /// Steps of gpu::TileChange in one mean radiance of the picture.
 constexpr float StepsPerRadiance = 1024.f;

@@ -93,13 +93,20 @@ TEST(Survey, SuspectsGetMoreScouts) {
     EXPECT_EQ(count(true), 8u);
 }
 
-TEST(Survey, TellsWhereItSawAChange) {
+TEST(Survey, SpreadsOnlyIfAsked) {
     const TileGrid grid(256, 256, 16);
-    Survey survey;
-    survey.begin(grid, 1.f / 64, 4);
-    run(survey, [&](uint32_t x, uint32_t y) { return grid.at(x, y) == 17 ? 1.f : 0.f; });
-    EXPECT_TRUE(survey.sawChange(17));
-    EXPECT_FALSE(survey.sawChange(18));
+    const auto scoutsNextToAChange = [&](bool spread) {
+        Survey survey;
+        survey.begin(grid, 1.f / 64, 4, spread);
+        uint32_t scouts = 0;
+        run(survey, [&](uint32_t x, uint32_t y) {
+            scouts += grid.at(x, y) == 18;
+            return grid.at(x, y) == 17 ? 1.f : 0.f;
+        });
+        return scouts;
+    };
+    EXPECT_EQ(scoutsNextToAChange(false), 4u);
+    EXPECT_EQ(scoutsNextToAChange(true), 16u);
 }
 
 TEST(Survey, KnowsItsFirstRound) {
