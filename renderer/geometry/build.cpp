@@ -180,6 +180,34 @@ private:
     std::unique_ptr<PrimvarView> _normals;
 };
 
+/// The faces of a description in which nothing has to be dropped.
+Polygons allFaces(const MeshDesc& desc) {
+    Polygons polygons;
+    for (const int size : desc.faceVertexCounts) {
+        const uint32_t first = polygons.faceStart.back(), count = uint32_t(size);
+        for (uint32_t i = 0; i < count; ++i) {
+            const uint32_t corner = first + (desc.leftHanded && i > 0 ? count - i : i);
+            polygons.vertex.push_back(uint32_t(desc.faceVertexIndices[corner]));
+        }
+        polygons.faceStart.push_back(first + count);
+    }
+    return polygons;
+}
+
+/// Whether the polygons, which are those of `old`, are cut as they were: that depends on where their corners
+/// are.
+bool cutAlike(const TriangleMesh& old, const MeshDesc& desc) {
+    const std::vector<int>& counts = desc.faceVertexCounts;
+    if (std::all_of(counts.begin(), counts.end(), [](int count) { return count == 3; })) return true;
+    const Polygons polygons = allFaces(desc);
+    const std::vector<glm::uvec3> corners = triangulate(desc.points, polygons, {}).corners;
+    return std::equal(corners.begin(), corners.end(), old.triangles.begin(), old.triangles.end(),
+                      [&](const glm::uvec3& c, const glm::uvec3& triangle) {
+                          return glm::uvec3(polygons.vertex[c.x], polygons.vertex[c.y],
+                                            polygons.vertex[c.z]) == triangle;
+                      });
+}
+
 /// Whether the triangles of `old` are those of `desc`: nothing was dropped then, and nothing will be now.
 bool keepsTriangles(const TriangleMesh& old, const MeshDesc& desc) {
     const bool authoredNormals = std::any_of(desc.primvars.begin(), desc.primvars.end(),
@@ -189,7 +217,8 @@ bool keepsTriangles(const TriangleMesh& old, const MeshDesc& desc) {
     size_t triangles = 0;
     for (const int count : desc.faceVertexCounts)
         triangles += size_t(std::max(count, 2)) - 2;
-    return old.triangles.size() == triangles && std::all_of(desc.points.begin(), desc.points.end(), isFinite);
+    return old.triangles.size() == triangles &&
+           std::all_of(desc.points.begin(), desc.points.end(), isFinite) && cutAlike(old, desc);
 }
 
 /// The renderer keeps going when one mesh is too large for the machine.
