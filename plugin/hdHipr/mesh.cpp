@@ -27,6 +27,20 @@ constexpr HdDirtyBits primvarBits = HdChangeTracker::DirtyPoints | HdChangeTrack
                                     HdChangeTracker::DirtyWidths | HdChangeTracker::DirtyPrimvar |
                                     HdChangeTracker::DirtyComputationPrimvarDesc;
 
+size_t elementCount(hipr::MeshDesc const& desc, hipr::Interpolation interpolation) {
+    switch (interpolation) {
+    case hipr::Interpolation::Constant:
+        return 1;
+    case hipr::Interpolation::Uniform:
+        return desc.faceVertexCounts.size();
+    case hipr::Interpolation::Vertex:
+        return desc.points.size();
+    case hipr::Interpolation::FaceVarying:
+        break;
+    }
+    return desc.faceVertexIndices.size();
+}
+
 } // namespace
 
 HdHiprMesh::HdHiprMesh(SdfPath const& id, SdfPath const& instancerId, HdHiprRenderParam& param)
@@ -43,6 +57,11 @@ HdDirtyBits HdHiprMesh::GetInitialDirtyBitsMask() const {
 
 /// Decides what the scene delegate prepares for Sync.
 HdDirtyBits HdHiprMesh::_PropagateDirtyBits(HdDirtyBits bits) const {
+    // UsdImaging says DirtyPrimvar when normals come, go, or change their interpolation, but looks at normals
+    // only when DirtyNormals is asked for.
+    if (bits & HdChangeTracker::DirtyPrimvar) {
+        bits |= HdChangeTracker::DirtyNormals;
+    }
     // Skinning reads the transform and primvars of the mesh, and UsdImaging marks no more than them and the
     // computation.
     constexpr HdDirtyBits inputs = HdChangeTracker::DirtyTransform | HdChangeTracker::DirtyPrimvar;
@@ -138,19 +157,23 @@ HdHiprMesh::Rebuild HdHiprMesh::syncPrimvars(HdSceneDelegate* delegate, HdDirtyB
     const auto listed = [&names](TfToken const& name) {
         return std::find(names.begin(), names.end(), name) != names.end();
     };
+    HdPrimvarDescriptorVector authored;
     for (int i = 0; i < HdInterpolationCount; ++i) {
-        for (HdPrimvarDescriptor const& pv : GetPrimvarDescriptors(delegate, HdInterpolation(i))) {
-            if (listed(pv.name)) {
-                continue;
-            } // computed values win over authored ones
-            names.push_back(pv.name);
-            if (!HdChangeTracker::IsPrimvarDirty(bits, GetId(), pv.name)) {
-                continue;
-            }
-            VtIntArray indices;
-            const VtValue value = readPrimvar(delegate, pv.name, &indices);
-            rebuild = std::max(rebuild, setPrimvar(pv, value, indices));
+        const auto some = GetPrimvarDescriptors(delegate, HdInterpolation(i));
+        authored.insert(authored.end(), some.begin(), some.end());
+    }
+    for (HdPrimvarDescriptorVector const& same : byName(authored)) {
+        TfToken const& name = same.front().name;
+        if (listed(name)) {
+            continue; // computed values win over authored ones
         }
+        names.push_back(name);
+        if (!HdChangeTracker::IsPrimvarDirty(bits, GetId(), name)) {
+            continue;
+        }
+        VtIntArray indices;
+        const VtValue value = readPrimvar(delegate, name, &indices);
+        rebuild = std::max(rebuild, setPrimvar(meant(same, value, indices), value, indices));
     }
     if (!listed(HdTokens->points) && (bits & HdChangeTracker::DirtyPoints)) {
         rebuild = std::max(rebuild, setPoints(GetPoints(delegate)));
@@ -191,6 +214,31 @@ void HdHiprMesh::syncComputedPrimvars(HdSceneDelegate* delegate, HdDirtyBits bit
         }
         *rebuild = std::max(*rebuild, setPrimvar(pv, value->second, VtIntArray()));
     }
+}
+
+HdPrimvarDescriptor const& HdHiprMesh::meant(HdPrimvarDescriptorVector const& same, VtValue const& value,
+                                             VtIntArray const& indices) {
+    if (same.size() == 1) {
+        return same.front();
+    }
+    const size_t values = value.IsArrayValued() ? value.GetArraySize() : 1;
+    const size_t count = indices.empty() ? values : indices.size();
+    std::vector<bool> fits;
+    for (HdPrimvarDescriptor const& descriptor : same) {
+        const std::optional<hipr::Interpolation> interpolation = toInterpolation(descriptor.interpolation);
+        fits.push_back(interpolation && elementCount(_desc, *interpolation) == count);
+    }
+    const auto used = std::find_if(_desc.primvars.begin(), _desc.primvars.end(),
+                                   [&](hipr::Primvar const& pv) { return same.front().name == pv.name; });
+    std::optional<HdInterpolation> now;
+    for (HdPrimvarDescriptor const& descriptor : same) {
+        const bool linear = descriptor.interpolation == HdInterpolationVarying;
+        if (used != _desc.primvars.end() && used->linear == linear &&
+            toInterpolation(descriptor.interpolation) == used->interpolation) {
+            now = descriptor.interpolation;
+        }
+    }
+    return _descriptorChoice.choose(same, fits, now);
 }
 
 HdHiprMesh::Rebuild HdHiprMesh::setPoints(VtValue const& value) {

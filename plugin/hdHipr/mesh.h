@@ -7,6 +7,7 @@
 
 #include "plugin/hdHipr/compat.h"
 #include "plugin/hdHipr/meshTopology.h"
+#include "plugin/hdHipr/primvars.h"
 #include "renderer/api/scene.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
@@ -37,6 +38,8 @@ private:
     Rebuild syncPrimvars(HdSceneDelegate* delegate, HdDirtyBits bits);
     Rebuild setPrimvar(HdPrimvarDescriptor const& descriptor, VtValue const& value,
                        VtIntArray const& indices);
+    HdPrimvarDescriptor const& meant(HdPrimvarDescriptorVector const& same, VtValue const& value,
+                                     VtIntArray const& indices);
     Rebuild setPoints(VtValue const& value);
     void syncComputedPrimvars(HdSceneDelegate* delegate, HdDirtyBits bits, TfTokenVector* names,
                               Rebuild* rebuild);
@@ -48,6 +51,7 @@ private:
     hipr::ObjectId _object;
     hipr::MeshDesc
         _desc; ///< kept: an edit of one part needs the others, and Hydra drops what it has handed over
+    hdhipr::DescriptorChoice _descriptorChoice;
     TfToken _reprToken; ///< the repr that `_style` is for
     hdhipr::MeshStyle _style;
     bool _computed = false; ///< some primvars are computed

@@ -1,5 +1,6 @@
 #include "plugin/hdHipr/primvars.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <type_traits>
 
@@ -86,6 +87,44 @@ std::optional<hipr::Interpolation> toInterpolation(HdInterpolation interpolation
     default:
         return std::nullopt;
     }
+}
+
+HdPrimvarDescriptor const& DescriptorChoice::choose(HdPrimvarDescriptorVector const& same,
+                                                    std::vector<bool> const& fits,
+                                                    std::optional<HdInterpolation> now) {
+    TfToken const& name = same.front().name;
+    size_t best = 0;
+    int bestScore = -1;
+    for (size_t i = 0; i < same.size(); ++i) {
+        const HdInterpolation interpolation = same[i].interpolation;
+        const bool outdated = _outdated.count({name, interpolation}) > 0;
+        const int score = 4 * int(fits[i]) + 2 * int(!outdated) + int(now != interpolation);
+        if (score > bestScore) {
+            best = i;
+            bestScore = score;
+        }
+    }
+    for (HdPrimvarDescriptor const& other : same) {
+        _outdated.insert({name, other.interpolation});
+    }
+    _outdated.erase({name, same[best].interpolation});
+    return same[best];
+}
+
+std::vector<HdPrimvarDescriptorVector> byName(HdPrimvarDescriptorVector const& descriptors) {
+    std::vector<HdPrimvarDescriptorVector> groups;
+    for (HdPrimvarDescriptor const& descriptor : descriptors) {
+        const auto known =
+            std::find_if(groups.begin(), groups.end(), [&](HdPrimvarDescriptorVector const& g) {
+                return g.front().name == descriptor.name;
+            });
+        if (known == groups.end()) {
+            groups.push_back({descriptor});
+        } else {
+            known->push_back(descriptor);
+        }
+    }
+    return groups;
 }
 
 std::vector<glm::vec3> toPoints(VtValue const& value) {

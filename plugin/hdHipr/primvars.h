@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -10,6 +11,7 @@
 #include "pxr/base/tf/token.h"
 #include "pxr/base/vt/value.h"
 #include "pxr/imaging/hd/enums.h"
+#include "pxr/imaging/hd/sceneDelegate.h"
 #include "pxr/pxr.h"
 #include "renderer/api/types.h"
 
@@ -25,6 +27,23 @@ std::optional<hipr::Primvar> toPrimvar(TfToken const& name, VtValue const& value
 /// Varying becomes Vertex (Primvar::linear tells them apart). Nothing for instance-rate primvars, which
 /// travel with the instances.
 std::optional<hipr::Interpolation> toInterpolation(HdInterpolation interpolation);
+
+/// Which of several descriptors of one primvar is meant. UsdImaging of 20.08 adds one when the interpolation
+/// changes and keeps those of before.
+class DescriptorChoice {
+public:
+    /// `same`: at least one, of one primvar, which is used with the interpolation `now`, if at all. `fits`:
+    /// for each whether the primvar has the right number of values. Prefers what fits, then what has not been
+    /// turned down before, then what is new.
+    HdPrimvarDescriptor const& choose(HdPrimvarDescriptorVector const& same, std::vector<bool> const& fits,
+                                      std::optional<HdInterpolation> now);
+
+private:
+    std::set<std::pair<TfToken, HdInterpolation>> _outdated;
+};
+
+/// Descriptors in groups of one name each; one group holds several only as above.
+std::vector<HdPrimvarDescriptorVector> byName(HdPrimvarDescriptorVector const& descriptors);
 
 /// Point positions of single, double or half precision. Empty when the value holds none.
 std::vector<glm::vec3> toPoints(VtValue const& value);
