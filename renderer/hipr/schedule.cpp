@@ -146,7 +146,8 @@ const std::vector<gpu::TileWork>& TileSchedule::next(uint32_t maxPaths, uint32_t
 /// The floor's tiles lead the batch, so that it has room for them.
 void TileSchedule::appendFloor(uint32_t maxPaths, uint32_t samples) {
     if (_rest.complete(1)) return;
-    _owedAfter += double(_floor) * maxPaths;
+    // A share of what is rendered, not of what the batch could hold: few discovered tiles make a small batch.
+    _owedAfter += double(_floor) * double(std::min<uint64_t>(maxPaths, _front.pixels()));
     if (_owedAfter < _grid.tileSize * _grid.tileSize) return;
     _restTaken =
         _rest.append(_work, _paths, std::min(maxPaths, uint32_t(_owedAfter)), samples, _grid, _states);

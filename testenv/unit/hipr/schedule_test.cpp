@@ -182,6 +182,15 @@ TEST(TileSchedule, UnchangedTilesKeepTheirPictureUntilTheNewOneIsAsGood) {
     EXPECT_EQ(schedule.tiles()[0].age, 0u);
 }
 
+TEST(TileSchedule, AnAlmostEmptyBatchIsNotForTheFloor) {
+    TileSchedule schedule = edited(8);
+    schedule.discover(5, 1.f);
+    schedule.sort(false);
+    const std::vector<TileWork>& work = schedule.next(1 << 16, 8);
+    ASSERT_EQ(work.size(), 1u);
+    EXPECT_EQ(schedule.grid().at(work[0].x, work[0].y), 5u);
+}
+
 // In a stream of edits that all show in the same tiles the others get their share.
 TEST(TileSchedule, NothingStarvesInAStreamOfEdits) {
     TileSchedule changing = edited(4);
