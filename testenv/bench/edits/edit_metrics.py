@@ -4,22 +4,24 @@ import numpy as np
 
 SHARES = (0.5, 0.9, 0.99)
 DELTA = 1 / 255  # a change of less than this is not seen
-BLOCK = 4
+BLOCK = 4  # pixels
+CERTAIN = 2  # standard errors
 LOCAL = 0.15  # of the frame
 
 
 def difference(old, new):
     """D: how much a pixel changed, mean over the channels, rows bottom-up like the film's. A few samples a pixel are no
     converged reference: light that takes rare ways leaves specks all over the frame, which would count as changes. So the
-    signed difference is averaged over BLOCK x BLOCK pixels first, as many samples as a reference of BLOCK^2 times the
-    samples has there. Changes that nobody sees, below DELTA, do not count."""
+    signed difference is averaged over BLOCK x BLOCK pixels first (as many samples as a reference of BLOCK^2 times the samples
+    has), and counts where it stands out from its own noise, the standard error of that mean, and could be seen."""
     d = new.astype(np.float64) - old
     height, width, _ = d.shape
     padded = np.pad(d, ((0, -height % BLOCK), (0, -width % BLOCK), (0, 0)), mode="edge")
-    blocks = padded.reshape(padded.shape[0] // BLOCK, BLOCK, -1, BLOCK, 3).mean(axis=(1, 3))
-    means = np.abs(blocks).mean(axis=2)
-    d = means.repeat(BLOCK, axis=0).repeat(BLOCK, axis=1)[:height, :width]
-    return np.where(d > DELTA, d, 0)[::-1]
+    blocks = padded.reshape(padded.shape[0] // BLOCK, BLOCK, -1, BLOCK, 3)
+    means, errors = np.abs(blocks.mean(axis=(1, 3))), blocks.std(axis=(1, 3)) / BLOCK
+    changes = np.where(means > CERTAIN * errors, means, 0).mean(axis=2)
+    d = np.where(changes > DELTA, changes, 0)
+    return d.repeat(BLOCK, axis=0).repeat(BLOCK, axis=1)[:height, :width][::-1]
 
 
 def tile_energy(grid, d):
@@ -28,7 +30,7 @@ def tile_energy(grid, d):
 
 
 def times(run, energy):
-    """For each of SHARES: paths and seconds until that share of the energy lies in tiles with a new sample."""
+    """For each of SHARES: paths and seconds until that share of the energy lies in tiles that show new samples."""
     refreshed = np.cumsum([energy[step.fresh].sum() for step in run.steps]) / energy.sum()
     result = []
     for share in SHARES:
@@ -56,5 +58,5 @@ def found(run, energy):
 
 def frame(run):
     """Paths and seconds of a one-sample frame: until every tile has a sample."""
-    last = max(i for i, step in enumerate(run.steps) if step.fresh)
+    last = max(i for i, step in enumerate(run.steps) if step.sampled)
     return run.steps[last].paths, run.steps[last].seconds

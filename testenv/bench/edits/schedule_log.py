@@ -33,7 +33,8 @@ class Step:
     """One batch."""
     paths: int  # traced since the edit, this batch and scouts included
     seconds: float  # since the edit
-    fresh: list  # tiles that got their first sample, in order
+    sampled: list  # tiles that got their first sample, in order
+    fresh: list  # tiles that no longer show the picture before the edit
 
 
 @dataclass
@@ -43,14 +44,14 @@ class Run:
     kind: str
     start: float
     scout_paths: int = 0
-    surveyed: float = 0.0  # seconds since the edit until the tiles were in order
-    found: dict = field(default_factory=dict)  # tile -> priority
+    surveyed: float = 0.0  # seconds since the edit until the tiles were in order for the first time
+    found: dict = field(default_factory=dict)  # tile -> latest priority
     steps: list = field(default_factory=list)
     restarts: int = 0
 
     def order(self):
         """Tiles in the order of their first sample."""
-        return [tile for step in self.steps for tile in step.fresh]
+        return [tile for step in self.steps for tile in step.sampled]
 
 
 class _Reader:
@@ -65,8 +66,8 @@ class _Reader:
         else:  # not converged: the edit comes in pieces, and what was refreshed is out of date again
             run = self.runs[-1]
             run.grid, run.restarts = grid, run.restarts + 1
-            run.steps = [Step(step.paths, step.seconds, []) for step in run.steps]
-        self.done = np.zeros(grid.count, int)
+            run.steps = [Step(step.paths, step.seconds, [], []) for step in run.steps]
+        self.done, self.shown = np.zeros(grid.count, int), np.zeros(grid.count, bool)
 
     def survey(self, line):
         self.paths += line["paths"]
@@ -74,21 +75,24 @@ class _Reader:
 
     def order(self, line):
         run = self.runs[-1]
-        run.surveyed = line["seconds"] - run.start
-        run.found = {run.grid.at(x, y): priority for x, y, priority in line["tiles"]}
+        run.surveyed = run.surveyed or line["seconds"] - run.start
+        run.found.update({run.grid.at(x, y): priority for x, y, priority in line["tiles"]})
 
     def batch(self, line):
         run = self.runs[-1]
-        fresh = []
-        for x, y, _, _, first, count in line["tiles"]:
+        sampled, fresh = [], []
+        for x, y, _, _, first, count, shown in line["tiles"]:
             tile = run.grid.at(x, y)
             if first != self.done[tile]:
                 raise SystemExit(f"tile {tile} got sample {first} after {self.done[tile]} samples")
             if first == 0:
+                sampled.append(tile)
+            if shown and not self.shown[tile]:
                 fresh.append(tile)
             self.done[tile] = first + count
+            self.shown[tile] |= shown > 0
         self.paths += line["paths"]
-        run.steps.append(Step(self.paths, line["seconds"] - run.start, fresh))
+        run.steps.append(Step(self.paths, line["seconds"] - run.start, sampled, fresh))
 
 
 def read_log(path, samples, pictures):
