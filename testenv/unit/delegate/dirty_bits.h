@@ -86,7 +86,7 @@ Section hostSection(); ///< render pass, film, settings
 
 /// A prim type that the delegate does not take, and the bits that therefore never come.
 struct Absent {
-    const char *type, *kind; ///< kind: rprim, sprim or bprim
+    const char* type;
     std::vector<const char*> bits;
 };
 std::vector<Absent> const& absentTypes();

@@ -178,13 +178,14 @@ Section hostSection() {
 
 std::vector<Absent> const& absentTypes() {
     static const std::vector<Absent> types = {
-        {"points", "rprim", {}},
-        {"basisCurves", "rprim", {}},
-        {"volume", "rprim", {}},
+        {"points", {}},
+        {"basisCurves", {}},
+        {"volume", {}},
         {"openvdbAsset",
-         "bprim",
          {"HdField::Clean", "HdField::DirtyTransform", "HdField::DirtyParams", "HdField::AllDirty"}},
-        {"coordSys", "sprim", {"HdCoordSys::Clean", "HdCoordSys::DirtyTransform", "HdCoordSys::AllDirty"}},
+        {"texture",
+         {"HdTexture::Clean", "HdTexture::DirtyTexture", "HdTexture::DirtyParams", "HdTexture::AllDirty"}},
+        {"coordSys", {"HdCoordSys::Clean", "HdCoordSys::DirtyTransform", "HdCoordSys::AllDirty"}},
     };
     return types;
 }

@@ -10,12 +10,12 @@ namespace {
 
 const char* const preamble = R"(# What Hydra's dirty bits become
 
-Every bit of OpenUSD 20.08's headers, what the delegate reads again when it is marked, and which elements of the
-changed set (`hipr::ChangedSet`, the input of HiPR's schedule) come of it. The page is made from the table in
-testenv/unit/delegate/dirty_bits_*.cpp, and the test that compares the two (`test_dirty_bits`) checks each row against
-a live delegate: it makes the edit and marks the bit; marks the bit again, with all values equal, after which the
-changed set is empty and the picture goes on; and takes the edit back, which changes the same where nothing else is
-said.
+Every bit that the headers of OpenUSD 20.08's pxr/imaging/hd name, what the delegate reads again when it is marked,
+and which elements of the changed set (`hipr::ChangedSet`, the input of HiPR's schedule) come of it. The page is made
+from the table in testenv/unit/delegate/dirty_bits_*.cpp, and the test that compares the two (`test_dirty_bits`)
+checks each row against a live delegate: it makes the edit and marks the bit; marks the bit again, with all values
+equal, after which the changed set is empty and the picture goes on; and takes the edit back, which changes the same
+where nothing else is said.
 
 A bit says what to read, not what has changed: values are compared with those of the last commit. What was changed
 last is in the render statistics `hipr:lastChange`, `hipr:changedElements` and `hipr:changes`.

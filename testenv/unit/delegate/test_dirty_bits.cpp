@@ -77,6 +77,7 @@ const std::set<std::string>& bitsOfHydra() {
               "DirtyCompInput", "DirtyKernel", "DirtyDispatchCount", "AllDirty"}},
             {"HdRenderBuffer", {"Clean", "DirtyDescription", "AllDirty"}},
             {"HdField", {"Clean", "DirtyTransform", "DirtyParams", "AllDirty"}},
+            {"HdTexture", {"Clean", "DirtyTexture", "DirtyParams", "AllDirty"}},
             {"HdCoordSys", {"Clean", "DirtyTransform", "AllDirty"}},
         };
         std::set<std::string> names;
