@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "renderer/shading/alias.h"
 #include "renderer/shading/dome.h"
+#include "renderer/shading/light_choice.h"
 #include "renderer/shading/light_shape.h"
 
 namespace hipr {
@@ -37,7 +37,7 @@ struct LightTable::Impl {
     uint32_t textureVersion = 0;
     double sceneRadius = -1.0;
     uint32_t areaLights = 0, infiniteLights = 0;
-    Buffer records, alias;
+    Buffer records, cumulative;
 
     void forget(LightId id);
     const Picture& picture(uint32_t texture);
@@ -119,24 +119,16 @@ void LightTable::Impl::rebuild() {
             powers.push_back(lightPower(record, mean, sceneRadius));
             ++(infinite ? infiniteLights : areaLights);
         }
-    double total = 0.0;
-    for (const double power : powers)
-        total += power;
-    // A tenth goes to all lights alike: a weak light may be the only one that a corner of the scene sees.
-    constexpr double Uniform = 0.1;
-    for (double& power : powers)
-        power = total > 0.0 ? (1.0 - Uniform) * power / total + Uniform / double(powers.size())
-                            : 1.0 / double(powers.size());
-    upload(table, powers);
+    upload(table, lightChances(powers));
 }
 
 void LightTable::Impl::upload(const std::vector<LightRecord>& table, const std::vector<double>& chances) {
     std::vector<LightRecord> out = table;
     for (size_t i = 0; i < out.size(); ++i)
         out[i].selectPdf = float(chances[i]);
-    const std::vector<gpu::AliasEntry> entries = buildAliasTable(chances);
+    const std::vector<float> sums = cumulativeChances(chances);
     records = device.createFrom(out.data(), out.size(), "light tables");
-    alias = device.createFrom(entries.data(), entries.size(), "light tables");
+    cumulative = device.createFrom(sums.data(), sums.size(), "light tables");
 }
 
 LightTable::LightTable(Device& device, TextureStore& textures)
@@ -191,7 +183,7 @@ bool LightTable::emits(LightId id) const {
 
 void LightTable::describe(gpu::SceneRecord& scene) const {
     scene.lights = _impl->records.address();
-    scene.lightAlias = _impl->alias.address();
+    scene.lightCumulative = _impl->cumulative.address();
     scene.lightCount = count();
     scene.areaLightCount = _impl->areaLights;
     scene.infiniteLightCount = _impl->infiniteLights;

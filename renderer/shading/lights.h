@@ -12,7 +12,7 @@
 
 namespace hipr {
 
-/// All lights of a scene: area lights first, then infinite ones, chosen by power with an alias table. Lights
+/// All lights of a scene: area lights first, then infinite ones, chosen by power. Lights
 /// that emit nothing (invisible, zero or non-finite intensity, colour or size, singular transform) are left
 /// out; bad values give one message that names the light. Lights are laid out by name, so that a scene looks
 /// the same to the last bit whatever edits led to it. Used by one thread.
@@ -34,7 +34,7 @@ public:
     /// Whether the light emits, as far as its description tells.
     bool emits(LightId id) const;
 
-    /// Fills SceneRecord::lights, lightAlias, lightCount, areaLightCount and infiniteLightCount.
+    /// Fills SceneRecord::lights, lightCumulative, lightCount, areaLightCount and infiniteLightCount.
     void describe(gpu::SceneRecord& scene) const;
 
 private:

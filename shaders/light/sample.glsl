@@ -37,13 +37,18 @@ vec3 shapeRadiance(SceneRecord scene, LightRecord light, vec2 st) {
     return light.radiance * max(sampleTexture(TextureRef(scene.textures).v[light.texture], st).rgb, 0.0);
 }
 
-// The light for u in [0, 1), in proportion to LightRecord::selectPdf: M. D. Vose, "A linear algorithm for generating
-// random numbers with a given distribution", IEEE Trans. Softw. Eng. 17(9), 1991.
+// The light for u in [0, 1), in proportion to LightRecord::selectPdf: the first whose sum of chances is above u.
 uint chooseLight(SceneRecord scene, float u) {
-    float x = u * float(scene.lightCount);
-    uint i = min(uint(x), scene.lightCount - 1u);
-    AliasEntry entry = AliasRef(scene.lightAlias).v[i];
-    return x - float(i) < entry.threshold ? i : entry.alias;
+    FloatRef sums = FloatRef(scene.lightCumulative);
+    uint lo = 0u, hi = scene.lightCount - 1u; // the answer is in [lo, hi]
+    while (lo < hi) {
+        uint middle = (lo + hi) >> 1;
+        if (sums.v[middle] > u)
+            hi = middle;
+        else
+            lo = middle + 1u;
+    }
+    return lo;
 }
 
 bool sampleDistant(LightRecord light, vec2 u, inout LightSample ls) {

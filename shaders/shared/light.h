@@ -30,11 +30,5 @@ struct LightRecord {
     uint distributionHeight;
 };
 
-// Walker/Vose alias table entry.
-struct AliasEntry {
-    float threshold;
-    uint alias;
-};
-
 HIPR_SHARED_END
 #endif

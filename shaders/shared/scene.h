@@ -82,7 +82,7 @@ struct SceneRecord {
     uint64_t materials;      // MaterialRecord[] (shaders/shared/material.h); entry 0 is the fallback look
     uint64_t textures;       // TextureRecord[]
     uint64_t lights;         // LightRecord[]  (shaders/shared/light.h)
-    uint64_t lightAlias;     // AliasEntry[lightCount]: choice of a light by power
+    uint64_t lightCumulative;// float[lightCount]: sums of LightRecord::selectPdf
     uint64_t bvh;            // root of the GLSL traversal's structures, or 0
     uint instanceCount;
     uint lightCount;

@@ -4,9 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "renderer/shading/alias.h"
 #include "renderer/shading/blackbody.h"
 #include "renderer/shading/dome.h"
+#include "renderer/shading/light_choice.h"
 #include "renderer/shading/light_shape.h"
 #include "testenv/unit/sampling/gpu.h"
 #include "testenv/unit/shading/light_kernel.h"
@@ -148,16 +148,20 @@ TEST(LightTable, AreaLightsComeFirstAndEditsShow) {
     EXPECT_EQ(scene.areaLightCount, 0u);
 }
 
-TEST(Alias, HoldsTheProbabilities) {
-    const std::vector<double> chances = {0.5, 0.02, 0.0, 0.18, 0.3};
-    const std::vector<gpu::AliasEntry> table = buildAliasTable(chances);
-    std::vector<double> sums(chances.size());
-    for (size_t i = 0; i < table.size(); ++i) {
-        sums[i] += table[i].threshold / double(table.size());
-        sums[table[i].alias] += (1.0 - table[i].threshold) / double(table.size());
-    }
-    for (size_t i = 0; i < chances.size(); ++i)
-        EXPECT_NEAR(sums[i], chances[i], 1e-6);
+TEST(LightChoice, FollowsPowerAndLeavesNoLightOut) {
+    const std::vector<double> chances = lightChances({8.0, 1.0, 0.0});
+    EXPECT_NEAR(chances[0], 0.9 * 8 / 9 + 0.1 / 3, 1e-12);
+    EXPECT_NEAR(chances[1], 0.9 * 1 / 9 + 0.1 / 3, 1e-12);
+    EXPECT_NEAR(chances[2], 0.1 / 3, 1e-12);
+    EXPECT_EQ(lightChances({0.0, 0.0}), (std::vector<double>{0.5, 0.5}));
+    EXPECT_EQ(cumulativeChances({0.25, 0.5, 0.25}), (std::vector<float>{0.25f, 0.75f, 1.f}));
+    EXPECT_EQ(cumulativeChances(std::vector<double>(10, 0.1)).back(), 1.f);
+}
+
+// Paths that an edit of one light does not touch must stay the same paths.
+TEST(LightChoice, IsLeftAloneByMostEdits) {
+    EXPECT_EQ(lightChances({3.0, 20.0, 1.1}), lightChances({3.6, 19.0, 1.2}));
+    EXPECT_NE(lightChances({3.0, 20.0, 1.1}), lightChances({9.0, 20.0, 1.1}));
 }
 
 /// A picture with a sun in it, rows from the top.
