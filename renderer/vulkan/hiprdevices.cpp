@@ -36,7 +36,7 @@ void printText(const std::vector<hipr::DeviceInfo>& devices) {
         std::cout << d.index << "  " << d.name << (d.usable ? "" : "  (not usable)") << "\n";
         if (!d.driver.empty()) std::cout << "   driver     " << d.driver << "\n";
         std::cout << "   memory     " << d.memoryBytes / (1 << 20) << " MiB\n";
-        std::cout << "   traversal  GLSL BVH" << (d.cpu ? ", Embree" : "")
+        std::cout << "   traversal  GLSL BVH" << (d.cpu ? ", trees on the host, Embree" : "")
                   << (d.rayQuery ? ", ray query" : "") << "\n";
         if (!d.usable) std::cout << "   lacks      " << d.missing << "\n";
     }

@@ -49,7 +49,7 @@ PACKAGES = (
     # hdHipr
     Package("libvulkan-dev", "Vulkan, the device interface"),
     Package("mesa-vulkan-drivers", "lavapipe: Vulkan on a plain CPU, with ray queries and float atomics", minimum="25"),
-    Package("libembree-dev", "ray traversal on CPU devices"),
+    Package("libembree-dev", "a traversal to choose and to compare with"),
     Package("libtbb-dev", "parallel loops in the renderer"),
     Package("libopenimageio-dev", "reads textures, writes EXR and PNG"),
     Package("openimageio-tools", "names the programs that OpenImageIO's CMake files refer to"),
