@@ -179,13 +179,14 @@ bool PathTracer::findFirstHits(Traversal& traversal, uint32_t first, uint32_t co
 }
 
 void PathTracer::findActive(DiscoveryPasses& discovery, uint32_t pixels) {
-    _device.run([&](VkCommandBuffer cmd) {
+    const auto record = [&](VkCommandBuffer cmd) {
         gpu::TraceKernelPush p = push();
         for (p.first = 0; p.first < pixels; p.first += p.count) { // the tiles add up, whatever the order
             p.count = std::min(pixels - p.first, PixelsPerDispatch);
             discovery.kernel(DiscoveryKernelId::Active).dispatch(cmd, &p, groupsOf(p.count));
         }
-    });
+    };
+    _profile.measure("active", [&] { _device.run(record); });
 }
 
 gpu::TraceCounters PathTracer::takeCounters() {
