@@ -38,12 +38,13 @@ void ObjectTable::dump(SceneDump& dump, const GeometryTable& geometries, const M
         for (uint32_t slot = 0; slot < entry.placed.materialCount; ++slot)
             out.fact("slot", slot, "shown",
                      nameOf.byIndex(_materialIndices[entry.placed.firstMaterial + slot]));
-        if (entry.instances) dumpInstances(out, entry);
+        dumpInstances(out, entry);
     }
 }
 
 void ObjectTable::dumpInstances(SceneDump::Element& out, const Entry& entry) const {
-    const InstancesDesc& instances = *entry.instances;
+    static const InstancesDesc once{{glm::mat4x3(1.f)}, {}, {}}; // what an object without any stands for
+    const InstancesDesc& instances = entry.instances ? *entry.instances : once;
     out.fact("instances", instances.transforms.size());
     dumpPrimvars(out, "instance", instances.primvars);
     for (size_t i = 0; i < instances.transforms.size(); ++i) {
