@@ -1,0 +1,119 @@
+// Lights: every attribute, type, presence.
+#include "testenv/edit/edits.h"
+
+namespace hipr::test {
+
+namespace {
+
+const std::string lights = "/World/Lights/";
+const char* const ramp = "asset texture:file = @../../scenes/textures/ramp.png@";
+
+Rows attributes() {
+    return {
+        {"LightDomeIntensity", in(lights + "Dome", "float intensity = 0.9")},
+        {"LightDomeColor", in(lights + "Dome", "color3f color = (1, 0.2, 0.2)")},
+        {"LightDomeTexture", in(lights + "Dome", ramp)},
+        {"LightDomeTextureMissing", in(lights + "Dome", "asset texture:file = @nowhere.png@"), {}, false},
+        {"LightDomeTextureGone", in(lights + "Dome", "asset texture:file = @@"), in(lights + "Dome", ramp)},
+        {"LightDomeTextureOther",
+         in(lights + "Dome", "asset texture:file = @../../scenes/textures/tile.1001.png@"),
+         in(lights + "Dome", ramp)},
+        {"LightDomeTextureSharedWithMaterial",
+         in("/World/Looks/Textured/Color", "asset inputs:file = @../../scenes/textures/tile.1001.png@"),
+         in(lights + "Dome", ramp)},
+        {"LightDomeTurns", in(lights + "Dome", R"(float xformOp:rotateY = 90
+uniform token[] xformOpOrder = ["xformOp:rotateY"])"),
+         in(lights + "Dome", ramp)},
+        {"LightDistantIntensity", in(lights + "Sun", "float intensity = 900")},
+        {"LightDistantAngle", in(lights + "Sun", "float angle = 30")},
+        {"LightDistantAngleZero", in(lights + "Sun", "float angle = 0")},
+        {"LightDistantTurns", in(lights + "Sun", "float xformOp:rotateX = -70")},
+        {"LightRectIntensity", in(lights + "Rect", "float intensity = 20")},
+        {"LightRectIntensityByItsNewName", in(lights + "Rect", "float inputs:intensity = 20")},
+        {"LightRectIntensityZero", in(lights + "Rect", "float intensity = 0")},
+        {"LightRectIntensityFromZero", in(lights + "Rect", "float intensity = 3"),
+         in(lights + "Rect", "float intensity = 0")},
+        {"LightRectExposure", in(lights + "Rect", "float exposure = 2")},
+        {"LightRectColor", in(lights + "Rect", "color3f color = (0.1, 1, 0.2)")},
+        {"LightRectTemperature", in(lights + "Rect", R"(bool enableColorTemperature = true
+float colorTemperature = 2500)")},
+        {"LightRectTemperatureOff", in(lights + "Rect", "float colorTemperature = 2500"), {}, false},
+        {"LightRectNormalize", in(lights + "Rect", "bool normalize = true")},
+        {"LightRectWidth", in(lights + "Rect", "float width = 2")},
+        {"LightRectHeight", in(lights + "Rect", "float height = 2")},
+        {"LightRectTexture", in(lights + "Rect", ramp)},
+        {"LightRectDiffuse", in(lights + "Rect", "float diffuse = 0.2")},
+        {"LightRectSpecular", in(lights + "Rect", "float specular = 0"),
+         in("/World/Looks/Glossy/Surface", "float inputs:roughness = 0.5")},
+        {"LightRectMoves", in(lights + "Rect", "double3 xformOp:translate = (2, 2, 2)")},
+        {"LightSphereRadius", in(lights + "Sphere", "float radius = 0.4")},
+        {"LightSphereRadiusNegative", in(lights + "Sphere", "float radius = -1")},
+        {"LightSphereNotANumber", in(lights + "Sphere", "float intensity = nan")},
+        {"LightDiskRadius", in(lights + "Disk", "float radius = 0.6")},
+        {"LightCylinderLength", in(lights + "Tube", "float length = 5")},
+        {"LightCylinderRadius", in(lights + "Tube", "float radius = 0.2")},
+        {"LightHidden", in(lights + "Rect", R"(token visibility = "invisible")")},
+        {"LightShown", in(lights + "Rect", R"(token visibility = "inherited")"),
+         in(lights + "Rect", R"(token visibility = "invisible")")},
+        {"LightHiddenByItsParent", in("/World/Lights", R"(token visibility = "invisible")")},
+        {"LightMovesWithItsParent", in("/World/Lights", R"(double3 xformOp:translate = (1, 0, 0)
+uniform token[] xformOpOrder = ["xformOp:translate"])")},
+        {"LightDomeHidden", in(lights + "Dome", R"(token visibility = "invisible")")},
+    };
+}
+
+Rows presence() {
+    return {
+        {"LightRemovedFirst", removePrim(lights + "Disk")},
+        {"LightRemovedDome", removePrim(lights + "Dome")},
+        {"LightRemovedAll", removePrim("/World/Lights")},
+        {"LightRemovedAllButOne",
+         all({removePrim(lights + "Dome"), removePrim(lights + "Sun"), removePrim(lights + "Rect"),
+              removePrim(lights + "Sphere"), removePrim(lights + "Disk")})},
+        {"LightInactive", activate(lights + "Sphere", false)},
+        {"LightActiveAgain", activate(lights + "Sphere", true), activate(lights + "Sphere", false)},
+        {"LightAdded", in("/World/Lights", R"(def SphereLight "Added" {
+float intensity = 9
+float radius = 0.2
+double3 xformOp:translate = (7, 1, 1)
+uniform token[] xformOpOrder = ["xformOp:translate"]
+})")},
+        {"LightAddedBeforeTheOthers", usda(
+                                          R"(over "World" { def SphereLight "Ahead" {
+float intensity = 9
+float radius = 0.2
+double3 xformOp:translate = (1, 1, 1)
+uniform token[] xformOpOrder = ["xformOp:translate"]
+} })")},
+        {"LightAddedWithoutOthers", usda(R"(def SphereLight "Only" {
+float intensity = 9
+float radius = 0.5
+double3 xformOp:translate = (4, 2, 3)
+uniform token[] xformOpOrder = ["xformOp:translate"]
+})"),
+         removePrim("/World/Lights")},
+        {"LightRenamed", rename(lights + "Rect", lights + "Rectangle"), {}, false},
+        {"LightRenamedPastOthers", rename(lights + "Rect", lights + "Area")},
+        {"LightReparented", rename(lights + "Rect", "/World/Geo/Rect")},
+        {"LightRectToDisk", retype(lights + "Rect", "DiskLight")},
+        {"LightDiskToRect", retype(lights + "Disk", "RectLight")},
+        {"LightSphereToCylinder", retype(lights + "Sphere", "CylinderLight")},
+        {"LightToXform", retype(lights + "Sphere", "Xform")},
+        {"LightDistantToDome", retype(lights + "Sun", "DomeLight")},
+        {"LightSecondDome", in("/World/Lights", R"(def DomeLight "Second" { color3f color = (0, 0.5, 0)
+})")},
+        {"LightAttributeAfterTypeSwap", in(lights + "Rect", "float radius = 0.9"),
+         retype(lights + "Rect", "DiskLight")},
+    };
+}
+
+} // namespace
+
+Rows lightRows() {
+    Rows rows = attributes();
+    const Rows more = presence();
+    rows.insert(rows.end(), more.begin(), more.end());
+    return rows;
+}
+
+} // namespace hipr::test
