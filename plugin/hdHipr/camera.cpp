@@ -1,6 +1,7 @@
 #include "plugin/hdHipr/camera.h"
 
 #include "plugin/hdHipr/messages.h"
+#include "plugin/hdHipr/renderParam.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
 
@@ -17,8 +18,15 @@ void HdHiprCamera::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, H
         if (param("exposure") != 0.0) {
             hdhipr::warnOnce(GetId().GetString(), "camera exposure is not supported and has no effect");
         }
+        static_cast<HdHiprRenderParam*>(renderParam)
+            ->setShutter(GetId(), param("shutterClose") > param("shutterOpen"));
     }
     HdCamera::Sync(delegate, renderParam, dirtyBits);
+}
+
+void HdHiprCamera::Finalize(HdRenderParam* renderParam) {
+    static_cast<HdHiprRenderParam*>(renderParam)->setShutter(GetId(), false);
+    HdCamera::Finalize(renderParam);
 }
 
 PXR_NAMESPACE_CLOSE_SCOPE

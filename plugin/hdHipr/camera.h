@@ -17,6 +17,7 @@ public:
 
     /// Tells which authored parameters have no effect.
     void Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdDirtyBits* dirtyBits) override;
+    void Finalize(HdRenderParam* renderParam) override;
 };
 
 PXR_NAMESPACE_CLOSE_SCOPE

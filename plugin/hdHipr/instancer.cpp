@@ -123,6 +123,10 @@ std::vector<float> repeated(std::vector<float> const& values, uint32_t component
 
 } // namespace
 
+bool HdHiprInstancer::placesInstances(TfToken const& primvar) {
+    return isPart(primvar);
+}
+
 void HdHiprInstancer::syncPrimvars(HdDirtyBits dirtyBits) {
     std::map<TfToken, VtValue> primvars;
     for (HdPrimvarDescriptor const& pv :

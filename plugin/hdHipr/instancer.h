@@ -22,6 +22,9 @@ public:
     };
     Instances instances(SdfPath const& prototypeId);
 
+    /// Whether an instance primvar of this name is part of the instances' transforms.
+    static bool placesInstances(TfToken const& primvar);
+
 protected:
     void syncPrimvars(HdDirtyBits dirtyBits) override;
 

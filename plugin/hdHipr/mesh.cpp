@@ -7,6 +7,7 @@
 #include "plugin/hdHipr/messages.h"
 #include "plugin/hdHipr/primvars.h"
 #include "plugin/hdHipr/renderParam.h"
+#include "plugin/hdHipr/unsupported.h"
 #include "pxr/imaging/hd/extComputationUtils.h"
 #include "pxr/imaging/hd/tokens.h"
 
@@ -52,7 +53,8 @@ HdHiprMesh::HdHiprMesh(SdfPath const& id, SdfPath const& instancerId, HdHiprRend
 HdDirtyBits HdHiprMesh::GetInitialDirtyBitsMask() const {
     return HdChangeTracker::InitRepr | objectBits | instanceBits | primvarBits |
            HdChangeTracker::DirtyDisplayStyle | HdChangeTracker::DirtyRepr |
-           HdChangeTracker::DirtySubdivTags | HdChangeTracker::DirtyDoubleSided;
+           HdChangeTracker::DirtySubdivTags | HdChangeTracker::DirtyDoubleSided |
+           HdChangeTracker::DirtyCullStyle;
 }
 
 /// Decides what the scene delegate prepares for Sync.
@@ -98,6 +100,16 @@ void HdHiprMesh::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdD
         updateMaterialId(delegate, delegate->GetMaterialId(GetId()));
     }
 
+    if (bits & HdChangeTracker::DirtyCullStyle) {
+        warnOfCullStyle(GetId().GetString(), GetCullStyle(delegate));
+    }
+    const HdDirtyBits motionBits = instanceBits | HdChangeTracker::DirtyPoints;
+    if ((bits & motionBits) && param.shutterOpen()) {
+        warnOfMotion(*delegate, GetId());
+        if (!GetInstancerId().IsEmpty()) {
+            warnOfInstanceMotion(*delegate, GetInstancerId());
+        }
+    }
     const Rebuild rebuild = std::max(syncTopology(delegate, bits, reprToken), syncPrimvars(delegate, bits));
     if (rebuild != Rebuild::None) {
         sendGeometry(rebuild, param);

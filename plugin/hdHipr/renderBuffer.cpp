@@ -7,15 +7,30 @@ PXR_NAMESPACE_OPEN_SCOPE
 
 using namespace hdhipr;
 
+namespace {
+
+std::string sizeText(GfVec3i const& size) {
+    return std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " + std::to_string(size[2]) +
+           " pixels";
+}
+
+} // namespace
+
 HdHiprRenderBuffer::HdHiprRenderBuffer(SdfPath const& id) : HdRenderBuffer(id) {}
 
 bool HdHiprRenderBuffer::Allocate(GfVec3i const& dimensions, HdFormat format, bool multiSampled) {
+    _Deallocate();
     if (dimensions[2] != 1 || dimensions[0] < 0 || dimensions[1] < 0 || !writableFormat(format)) {
-        warnOnce(GetId().GetString(), "cannot allocate a render buffer of " + std::to_string(dimensions[0]) +
-                                          " x " + std::to_string(dimensions[1]) + " x " +
-                                          std::to_string(dimensions[2]) + " pixels in format " +
-                                          std::to_string(int(format)));
-        _Deallocate();
+        warnOnce(GetId().GetString(), "cannot allocate a render buffer of " + sizeText(dimensions) +
+                                          " in format " + std::to_string(int(format)));
+        return false;
+    }
+    std::vector<uint8_t> front, back;
+    try {
+        back.assign(size_t(dimensions[0]) * size_t(dimensions[1]) * HdDataSizeOfFormat(format), 0);
+        front = back;
+    } catch (std::exception const&) { // the size does not even fit a vector, or there is no memory
+        warnOnce(GetId().GetString(), "there is no memory for a render buffer of " + sizeText(dimensions));
         return false;
     }
     std::lock_guard<std::mutex> lock(_mutex);
@@ -24,8 +39,8 @@ bool HdHiprRenderBuffer::Allocate(GfVec3i const& dimensions, HdFormat format, bo
     _height = unsigned(dimensions[1]);
     _format = format;
     _multiSampled = multiSampled;
-    _back.assign(size_t(_width) * _height * HdDataSizeOfFormat(format), 0);
-    _front = _back;
+    _back = std::move(back);
+    _front = std::move(front);
     _newer = false;
     _converged.store(false);
     return true;
@@ -35,8 +50,8 @@ void HdHiprRenderBuffer::_Deallocate() {
     std::lock_guard<std::mutex> lock(_mutex);
     _width = _height = 0;
     _format = HdFormatInvalid;
-    _back.clear();
-    _front.clear();
+    _back = {};
+    _front = {};
     _newer = false;
     _converged.store(false);
 }

@@ -237,6 +237,7 @@ VtDictionary HdHiprRenderDelegate::GetRenderStats() const {
     stats["hipr:changedElements"] = loop.changedElements;
     stats["hipr:lastChange"] = hipr::toString(loop.lastChange);
     stats["hipr:pictures"] = _param->loop()->pictures();
+    stats["hipr:failed"] = int(progress.failed);
     stats["hipr:device"] = _param->loop()->renderer().device().name;
     stats["peakMemory"] = peakMemory();
     for (hipr::MemoryReport::Row const& row : loop.memory.rows) {

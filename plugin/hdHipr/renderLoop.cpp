@@ -153,7 +153,24 @@ void RenderLoop::dumpScene(std::ostream& out) {
     kick();
 }
 
+/// Nothing may leave the render thread: it would end the host.
 void RenderLoop::run() {
+    try {
+        if (!_broken) {
+            renderRequests();
+        }
+    } catch (std::exception const& error) {
+        _broken = true;
+        report(hipr::Severity::Error, "", std::string("the render thread ended: ") + error.what());
+    }
+    if (_broken) {
+        const std::scoped_lock lock(_publishMutex, _requestMutex);
+        _pickedVersion = _version.load();
+        converge();
+    }
+}
+
+void RenderLoop::renderRequests() {
     _renderer->resume();
     while (!_stopped.load() && !_thread.IsStopRequested()) {
         if (_thread.IsPauseRequested()) {
@@ -260,6 +277,10 @@ void RenderLoop::publishTarget(AovTarget const& target) {
     if (_shownFrame.rect.width <= 0 || _shownFrame.rect.height <= 0) {
         return;
     }
+    if (_renderer->readAov(*target.aov, nullptr, 0)) {
+        return; // a film without pixels: the renderer refused a size for which there may be no memory here
+                // either
+    }
     const hipr::AovFormat format = hipr::aovFormat(target.aov->kind);
     _scratch.resize(size_t(_shownFrame.rect.width) * size_t(_shownFrame.rect.height) * format.components);
     if (!_renderer->readAov(*target.aov, _scratch.data(), _scratch.size())) {
@@ -279,11 +300,16 @@ bool RenderLoop::finish() {
     if (_pickedVersion != _version.load()) {
         return false;
     }
+    converge();
+    return true;
+}
+
+/// Called under _requestMutex.
+void RenderLoop::converge() {
     for (AovTarget const& target : _frame.targets) {
         target.buffer->setConverged(true);
     }
     _convergedVersion.store(_pickedVersion);
-    return true;
 }
 
 } // namespace hdhipr

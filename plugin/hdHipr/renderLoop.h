@@ -94,11 +94,13 @@ public:
 
 private:
     void run();
+    void renderRequests();
     void pickUp();
     bool publish(bool last);
     void waitUntilTaken();
     void publishTarget(AovTarget const& target);
     bool finish();
+    void converge();
     void changed();
 
     std::unique_ptr<hipr::Renderer> _renderer;
@@ -123,6 +125,7 @@ private:
     uint64_t _publishedPaths = 0; ///< traced when the last picture was published
 
     uint64_t _pickedVersion = 0;     ///< render thread only
+    bool _broken = false;            ///< render thread only; it gave up, and requests go unrendered
     std::atomic<bool> _shown{false}; ///< the picked-up request has been published at least once
     std::atomic<bool> _paused{false}, _stopped{false}, _everyBatch{false};
     std::atomic<uint64_t> _pictures{0}; ///< published so far

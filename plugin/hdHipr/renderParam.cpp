@@ -86,6 +86,20 @@ void HdHiprRenderParam::removeLight(hipr::LightId id) {
     _edit.removeLight(id);
 }
 
+void HdHiprRenderParam::setShutter(SdfPath const& camera, bool open) {
+    std::lock_guard<std::mutex> lock(_mutex);
+    if (open) {
+        _openShutters.insert(camera);
+    } else {
+        _openShutters.erase(camera);
+    }
+}
+
+bool HdHiprRenderParam::shutterOpen() {
+    std::lock_guard<std::mutex> lock(_mutex);
+    return !_openShutters.empty();
+}
+
 bool HdHiprRenderParam::hasDome() {
     std::lock_guard<std::mutex> lock(_mutex);
     return !_domes.empty();

@@ -54,6 +54,10 @@ public:
     void removeLight(hipr::LightId id);
     bool hasDome();
 
+    /// Whether any camera has a shutter that opens.
+    void setShutter(SdfPath const& camera, bool open);
+    bool shutterOpen();
+
     /// What the render pass draws. Objects outside of it become invisible.
     void setFilter(HdRprimCollection const& collection, TfTokenVector const& renderTags);
 
@@ -75,6 +79,7 @@ private:
     std::unordered_map<SdfPath, hipr::MaterialId, SdfPath::Hash> _materials;
     std::unordered_map<hipr::ObjectId, hdhipr::ObjectState> _objects;
     std::set<hipr::LightId> _domes; ///< those that are switched on
+    std::set<SdfPath> _openShutters;
     SdfPathVector _rootPaths, _excludePaths;
     TfTokenVector _renderTags;
 };

@@ -5,6 +5,7 @@
 #include "plugin/hdHipr/messages.h"
 #include "plugin/hdHipr/renderBuffer.h"
 #include "plugin/hdHipr/renderParam.h"
+#include "plugin/hdHipr/unsupported.h"
 #include "pxr/imaging/hd/renderIndex.h"
 #include "pxr/imaging/hd/tokens.h"
 
@@ -70,6 +71,7 @@ void HdHiprRenderPass::_Execute(HdRenderPassStateSharedPtr const& state, TfToken
     if (!state->GetClipPlanes().empty()) {
         warnOnce("", "clipping planes are not supported and have no effect");
     }
+    warnOfCullStyle("", state->GetCullStyle());
 
     Frame frame;
     frame.camera = {toGlm(state->GetWorldToViewMatrix()), toGlm(state->GetProjectionMatrix())};

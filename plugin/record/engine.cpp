@@ -202,6 +202,7 @@ void Engine::populate(const UsdStageRefPtr& stage, const SdfPath& camera, const 
     _impl->scene->SetDisplayProxy(contains(options.purposes, "proxy"));
     _impl->scene->SetDisplayGuides(contains(options.purposes, "guide"));
     _impl->scene->SetRefineLevelFallback(options.refineLevel);
+    _impl->scene->SetCameraForSampling(camera); // whose shutter says what moves
     _impl->scene->Populate(stage->GetPseudoRoot());
 
     HdRenderPassAovBindingVector bindings;

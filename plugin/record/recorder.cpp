@@ -300,8 +300,10 @@ void Recording::render(FrameReport& report, const Limit& limit) {
         if (!tookBatch) std::this_thread::sleep_for(_editFrames ? batchPollInterval : pollInterval);
     }
     _progress.end();
-    // HiPR always counts samples; when it has no device there is nothing to count.
-    const bool failed = _report.renderer == ownRenderer && report.stats.empty();
+    // HiPR always counts samples; when it has no device there is nothing to count. It also tells when it gave
+    // up.
+    const bool failed = _report.renderer == ownRenderer &&
+                        (report.stats.empty() || statNumber(report.stats, "hipr:failed", 0.0) > 0.0);
     if (report.converged && (failed || !hasPicture(report)))
         throw Failure(ExitRender, "the renderer " + _report.renderer + " stopped without a picture");
 }

@@ -11,3 +11,11 @@ HIPR_SANITIZER __asan_default_options() {
 HIPR_SANITIZER __ubsan_default_options() {
     return "print_stacktrace=1:halt_on_error=1";
 }
+
+HIPR_SANITIZER __lsan_default_suppressions() {
+    // Singletons that OpenUSD 20.08 and its TBB make once and never return. Functions, not libraries: the delegate's own
+    // prims are made below frames of those libraries.
+    return "leak:tbb::internal::arena::arena\n"
+           "leak:Tf_RegistryManagerImpl\n"
+           "leak:WorkArenaDispatcher::_GetArena\n";
+}

@@ -7,7 +7,6 @@
 #include "plugin/hdHipr/renderParam.h"
 #include "pxr/base/gf/frustum.h"
 #include "pxr/imaging/hd/camera.h"
-#include "pxr/imaging/hd/renderPassState.h"
 #include "pxr/imaging/hd/task.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
@@ -95,8 +94,14 @@ void TestHost::setClearColor(GfVec4f const& color) {
     _state->SetAovBindings(bindings);
 }
 
+void TestHost::setMatrices(GfMatrix4d const& worldToView, GfMatrix4d const& projection) {
+    _matrices = {worldToView, projection};
+}
+
 void TestHost::tick() {
-    if (_camera.IsEmpty()) {
+    if (_matrices) {
+        _state->SetCameraFramingState(_matrices->first, _matrices->second, _viewport, {});
+    } else if (_camera.IsEmpty()) {
         lookAtPlane();
     } else {
         const HdSprim* camera = _index->GetSprim(HdPrimTypeTokens->camera, _camera);

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "plugin/hdHipr/renderBuffer.h"
@@ -12,6 +14,7 @@
 #include "pxr/base/gf/vec4d.h"
 #include "pxr/imaging/hd/engine.h"
 #include "pxr/imaging/hd/renderPass.h"
+#include "pxr/imaging/hd/renderPassState.h"
 #include "testenv/unit/delegate/test_scene.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
@@ -36,6 +39,9 @@ public:
     void setCamera(SdfPath const& camera) { _camera = camera; } ///< a prim of the scene to look through
     /// Changes the picture's size and leaves the buffers alone.
     void setViewport(int w, int h) { _viewport = GfVec4d(0, 0, w, h); }
+    /// Sees the scene through these matrices and no camera prim, instead of along -Z.
+    void setMatrices(GfMatrix4d const& worldToView, GfMatrix4d const& projection);
+    HdRenderPassState& state() { return *_state; }
     void setRenderTags(TfTokenVector const& tags) { _tags = tags; }
     /// Renders an AOV into a render buffer of the scene, too.
     void bind(std::string const& aov, SdfPath const& buffer);
@@ -67,6 +73,7 @@ private:
     double _viewSize = 1.0;
     SdfPath _camera;
     GfVec4d _viewport{0, 0, width, height};
+    std::optional<std::pair<GfMatrix4d, GfMatrix4d>> _matrices;
 };
 
 PXR_NAMESPACE_CLOSE_SCOPE

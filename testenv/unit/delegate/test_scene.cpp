@@ -1,5 +1,7 @@
 #include "testenv/unit/delegate/test_scene.h"
 
+#include <algorithm>
+
 #include "pxr/base/gf/frustum.h"
 #include "pxr/base/gf/vec3f.h"
 #include "pxr/imaging/hd/camera.h"
@@ -145,6 +147,27 @@ HdPrimvarDescriptorVector TestScene::GetPrimvarDescriptors(SdfPath const& id, Hd
         }
     }
     return list;
+}
+
+size_t TestScene::SampleTransform(SdfPath const& id, size_t most, float* times, GfMatrix4d* values) {
+    const GfMatrix4d samples[] = {prim(id).transform, prim(id).transform * prim(id).shutterMotion};
+    for (size_t i = 0; i < std::min<size_t>(most, 2); ++i) {
+        times[i] = float(i);
+        values[i] = samples[i];
+    }
+    return 2;
+}
+
+size_t TestScene::SamplePrimvar(SdfPath const& id, TfToken const& key, size_t most, float* times,
+                                VtValue* values) {
+    const auto atClose = prim(id).primvarsAtClose.find(key);
+    const VtValue atOpen = Get(id, key);
+    const VtValue samples[] = {atOpen, atClose == prim(id).primvarsAtClose.end() ? atOpen : atClose->second};
+    for (size_t i = 0; i < std::min<size_t>(most, 2); ++i) {
+        times[i] = float(i);
+        values[i] = samples[i];
+    }
+    return 2;
 }
 
 VtIntArray TestScene::GetInstanceIndices(SdfPath const& id, SdfPath const& prototype) {

@@ -34,6 +34,9 @@ public:
         HdReprSelector repr;
         SdfPath computation; ///< that gives the points
         HdRenderBufferDescriptor buffer;
+        HdCullStyle cullStyle = HdCullStyleDontCare;
+        GfMatrix4d shutterMotion{1.0};              ///< from the opening of the shutter to its closing
+        std::map<TfToken, VtValue> primvarsAtClose; ///< of the shutter; absent: as at its opening
     };
 
     explicit TestScene(HdRenderIndex* index) : HdSceneDelegate(index, SdfPath::AbsoluteRootPath()) {}
@@ -72,6 +75,14 @@ public:
     HdDisplayStyle GetDisplayStyle(SdfPath const& id) override {
         return HdDisplayStyle(prim(id).refineLevel);
     }
+    HdCullStyle GetCullStyle(SdfPath const& id) override { return prim(id).cullStyle; }
+    size_t SampleTransform(SdfPath const& id, size_t most, float* times, GfMatrix4d* values) override;
+    size_t SampleInstancerTransform(SdfPath const& id, size_t most, float* times,
+                                    GfMatrix4d* values) override {
+        return SampleTransform(id, most, times, values);
+    }
+    size_t SamplePrimvar(SdfPath const& id, TfToken const& key, size_t most, float* times,
+                         VtValue* values) override;
     GfMatrix4d GetInstancerTransform(SdfPath const& id) override { return prim(id).transform; }
     VtValue Get(SdfPath const& id, TfToken const& key) override;
     HdPrimvarDescriptorVector GetPrimvarDescriptors(SdfPath const& id,
