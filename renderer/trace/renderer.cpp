@@ -50,6 +50,10 @@ bool samePicture(const Settings& a, const Settings& b) {
     return c == b;
 }
 
+/// Batches after an edit that shows in less than this share of the tiles have this share of the pixels.
+constexpr double NarrowEdit = 0.5, EditBatchShare = 1.0 / 32;
+constexpr uint32_t SmallestEditBatch = 2048;
+
 double secondsSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -285,10 +289,19 @@ bool RendererImpl::renderFirstHits() {
     return true;
 }
 
+/// Paths of the next batch. Small while a few discovered tiles wait for their first sample: what matters most
+/// shows soon, and its samples tell where to go on.
+uint32_t RendererImpl::samplePaths() const {
+    const bool fewWait = !_schedule.discoveredRefreshed() &&
+                         _schedule.discoveredTiles() < NarrowEdit * _schedule.grid().count();
+    const uint32_t some = std::max(SmallestEditBatch, uint32_t(EditBatchShare * double(_film.pixels())));
+    return fewWait ? std::min(batchPaths(), some) : batchPaths();
+}
+
 bool RendererImpl::renderSamples() {
     const auto start = Clock::now();
     const uint32_t samples = uint32_t(_settings.samples);
-    const std::vector<gpu::TileWork>& tiles = _schedule.next(batchPaths(), samples);
+    const std::vector<gpu::TileWork>& tiles = _schedule.next(samplePaths(), samples);
     const uint32_t paths = _schedule.pathCount();
     if (!tiles.empty()) {
         const bool done =

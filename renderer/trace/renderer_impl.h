@@ -59,6 +59,7 @@ private:
     bool firstHitsDone() const { return _firstHitsDone >= _film.pixels(); }
     bool renderSamples();
     uint32_t batchPaths() const { return _internals.batchPaths ? _internals.batchPaths : _batch.paths(); }
+    uint32_t samplePaths() const;
     void count(uint32_t paths, double seconds);
 
     MachinePtr _machine; ///< outlives everything below
