@@ -26,14 +26,17 @@ void playAll(bool wait) {
     Viewer viewer;
     for (unsigned i = 0; i < sequences; ++i) {
         RandomEdits edits(first + i);
+        std::string history;
         for (int e = 0; e < EditsEach; ++e) {
             edits.applyOne(scene);
+            history += " " + edits.last();
             viewer.tick(scene.stage(), scene.view);
             if (wait) viewer.picture();
         }
         const std::string difference = viewer.picture().differenceTo(freshPicture(scene));
-        ASSERT_EQ(difference, "") << "HIPR_EDIT_SEED=" << first + i << ", edits: " << edits.history();
+        ASSERT_EQ(difference, "") << "HIPR_EDIT_SEED=" << first + i << ", edits:" << history;
         scene.reset();
+        scene.swapStage();
     }
 }
 

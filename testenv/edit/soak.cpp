@@ -21,7 +21,7 @@ double residentMiB() {
 struct Options {
     int edits = 10000;
     unsigned seed = 1;
-    bool running = false;
+    bool running = false, verbose = false;
 };
 
 /// Every so many edits the scene starts over, or nothing would be left of it.
@@ -43,10 +43,13 @@ int soak(const Options& options) {
     const auto start = std::chrono::steady_clock::now();
     int nextReport = 100;
     for (int i = 1; i <= options.edits; ++i) {
-        if (i % editsBetweenResets == 0)
+        if (i % editsBetweenResets == 0) {
             scene.reset();
-        else
+            scene.swapStage(); // what UsdImaging missed shall not add up
+        } else {
             edits.applyOne(scene);
+        }
+        if (options.verbose) std::fprintf(stderr, "%d %s\n", i, edits.last().c_str());
         viewer.tick(scene.stage(), scene.view);
         if (!options.running) viewer.picture();
         if (i != nextReport && i != options.edits) continue;
@@ -68,6 +71,7 @@ int main(int argc, char** argv) {
     app.add_option("--edits", options.edits, "how many");
     app.add_option("--seed", options.seed, "another seed, other edits");
     app.add_flag("--running", options.running, "edit while the render thread is at work");
+    app.add_flag("--verbose", options.verbose, "name every edit");
     CLI11_PARSE(app, argc, argv);
     return hipr::test::soak(options);
 }
