@@ -37,9 +37,9 @@ def enter_environment(folder):
 def parse():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--record", default="hiprrecord", help="the hiprrecord to measure")
-    parser.add_argument("--modes", default="uniform,delta", help="uniform first: the yardstick [%(default)s]")
-    parser.add_argument("--samples", type=int, default=16)
-    parser.add_argument("--few", type=int, default=4, help="samples of the later turns [%(default)s]")
+    parser.add_argument("--modes", default="uniform,delta,paper", help="uniform first: the yardstick [%(default)s]")
+    parser.add_argument("--samples", type=int, default=8)
+    parser.add_argument("--few", type=int, default=2, help="samples of the later turns [%(default)s]")
     parser.add_argument("--turns", type=int, default=3)
     parser.add_argument("--only", default="", metavar="REGEX", help="only scenes whose name matches")
     parser.add_argument("--flip", default="move ball,only in mirror,only by shadow,roughness of brass,one of 2500 moved",
