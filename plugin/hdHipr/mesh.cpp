@@ -103,13 +103,6 @@ void HdHiprMesh::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdD
     if (bits & HdChangeTracker::DirtyCullStyle) {
         warnOfCullStyle(GetId().GetString(), GetCullStyle(delegate));
     }
-    const HdDirtyBits motionBits = instanceBits | HdChangeTracker::DirtyPoints;
-    if ((bits & motionBits) && param.shutterOpen()) {
-        warnOfMotion(*delegate, GetId());
-        if (!GetInstancerId().IsEmpty()) {
-            warnOfInstanceMotion(*delegate, GetInstancerId());
-        }
-    }
     const Rebuild rebuild = std::max(syncTopology(delegate, bits, reprToken), syncPrimvars(delegate, bits));
     if (rebuild != Rebuild::None) {
         sendGeometry(rebuild, param);
@@ -119,6 +112,14 @@ void HdHiprMesh::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdD
     }
     if (bits & instanceBits) {
         sendInstances(delegate, param);
+    }
+    // Last: UsdImaging hands out the points once, and asking for samples of them counts.
+    const HdDirtyBits motionBits = instanceBits | HdChangeTracker::DirtyPoints;
+    if ((bits & motionBits) && param.shutterOpen()) {
+        warnOfMotion(*delegate, GetId());
+        if (!GetInstancerId().IsEmpty()) {
+            warnOfInstanceMotion(*delegate, GetInstancerId());
+        }
     }
     *dirtyBits = HdChangeTracker::Clean; // custom bits, too: AllDirty holds them
 }
