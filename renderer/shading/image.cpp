@@ -7,6 +7,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "renderer/shading/image_file.h"
+#include "renderer/vulkan/result.h"
 #include "shaders/shared/material.h"
 
 namespace hipr {
@@ -132,7 +133,7 @@ bool decodeImage(const std::vector<unsigned char>& bytes, const std::string& pat
             storeFloats(values, image);
         }
     } catch (const std::exception& e) { // out of memory on a broken or huge file
-        error = e.what();
+        error = reasonOf(e);
         return false;
     }
     return true;

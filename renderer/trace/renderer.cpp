@@ -58,8 +58,8 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-ChangedSet settingChange(bool changed) {
-    return changed ? ChangedSet{{{std::monostate(), Change::Setting}}} : ChangedSet();
+ChangedSet settingChange() {
+    return {{{std::monostate(), Change::Setting}}};
 }
 
 bool anyCamera(const ChangedSet& changed) {
@@ -143,17 +143,20 @@ ChangedSet RendererImpl::commit(SceneEdit& edit) {
 }
 
 ChangedSet RendererImpl::setFilm(const FilmDesc& film) {
-    const bool changed = guarded([&] {
-        if (film == _film.desc()) return false;
+    ChangedSet changed;
+    guarded([&] {
+        if (film == _film.desc()) return true;
         _film.setDesc(film);
         restart(Cause::Picture);
+        changed = settingChange();
         return true;
     });
-    return settingChange(changed);
+    return changed;
 }
 
 ChangedSet RendererImpl::setSettings(const Settings& settings) {
-    const bool changed = guarded([&] {
+    ChangedSet changed;
+    guarded([&] {
         const bool same = samePicture(_settings, settings);
         if (settings.mode != _settings.mode) _edits.stop();
         _settings = settings;
@@ -173,9 +176,10 @@ ChangedSet RendererImpl::setSettings(const Settings& settings) {
             restart(Cause::Everything);
         std::lock_guard<std::mutex> lock(_progressMutex);
         _progress.samplesTotal = uint32_t(settings.samples);
-        return tiles || !same;
+        if (tiles || !same) changed = settingChange();
+        return true;
     });
-    return settingChange(changed);
+    return changed;
 }
 
 uint32_t RendererImpl::tileSize() const {

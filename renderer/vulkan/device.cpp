@@ -317,7 +317,9 @@ void Device::run(const std::function<void(VkCommandBuffer)>& record) {
     toHost.dstAccessMask = VK_ACCESS_HOST_READ_BIT;
     vkCmdPipelineBarrier(d.commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
                          &toHost, 0, nullptr, 0, nullptr);
-    check(vkEndCommandBuffer(d.commands), "vkEndCommandBuffer");
+    const VkResult ended = vkEndCommandBuffer(d.commands);
+    if (ended != VK_SUCCESS) vkResetCommandBuffer(d.commands, 0); // or the next recording could not begin
+    check(ended, "vkEndCommandBuffer");
     d.submit();
 }
 
