@@ -2,6 +2,7 @@
 // renderer says so once, ends its work, and the next renderer draws what it always did.
 #include <chrono>
 #include <iostream>
+#include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
