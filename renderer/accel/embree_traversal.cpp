@@ -2,16 +2,11 @@
 
 #include <stdexcept>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
-#include "renderer/accel/denormals.h"
 #include "renderer/accel/embree_query.h"
+#include "renderer/accel/host_rays.h"
 
 namespace hipr {
 namespace {
-
-constexpr uint32_t RAYS_PER_TASK = 256;
 
 class EmbreeTraversal final : public Traversal {
 public:
@@ -43,17 +38,6 @@ public:
     void recordOccluded(VkCommandBuffer, VkDeviceAddress, const TraceQueue&) override { recordingIsWrong(); }
 
 private:
-    template <class Function> static void forRays(const TraceQueue& queue, const Function& function) {
-        const auto& header =
-            *reinterpret_cast<const gpu::QueueHeader*>(queue.header->mapped<char>() + queue.headerOffset);
-        const auto* rays = queue.rays->mapped<gpu::Ray>();
-        tbb::parallel_for(tbb::blocked_range<uint32_t>(0, header.count, RAYS_PER_TASK),
-                          [&](const auto& range) {
-                              const FlushDenormals flush;
-                              function(range.begin(), range.end() - range.begin(), rays + range.begin());
-                          });
-    }
-
     [[noreturn]] static void recordingIsWrong() {
         throw std::logic_error(
             "Embree traces between submissions; it cannot be recorded into a command buffer");

@@ -2,17 +2,13 @@
 
 #include <stdexcept>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
-#include "renderer/accel/denormals.h"
+#include "renderer/accel/geometry_slots.h"
+#include "renderer/accel/host_rays.h"
 #include "renderer/accel/instance_table.h"
 #include "renderer/accel/wide_walk.h"
 
 namespace hipr {
 namespace {
-
-constexpr uint32_t RAYS_PER_TASK = 256;
 
 /// A geometry slot and its tree.
 struct HostGeometry {
@@ -24,18 +20,8 @@ struct HostGeometry {
 class HostTraversal final : public Traversal {
 public:
     void setGeometry(uint32_t slot, const GeometryView* view) override {
-        if (slot >= _geometries.size()) _geometries.resize(slot + 1);
+        setSlot(_geometries, slot, view);
         _instancesChanged = true; // boxes of instances follow their geometry
-        std::unique_ptr<HostGeometry>& g = _geometries[slot];
-        if (!view) {
-            g.reset();
-            return;
-        }
-        if (!g) g = std::make_unique<HostGeometry>();
-        const bool same = view->sameTopology && (!g->changed || g->view.sameTopology);
-        g->view = *view;
-        g->view.sameTopology = same; // as what was built last, not as what was set last
-        g->changed = true;
     }
 
     void setInstances(const std::vector<gpu::InstanceRecord>& instances) override {
@@ -105,17 +91,6 @@ private:
         }
         _top.build(boxes, instances);
         _scene = {_table.records.data(), uint32_t(_table.records.size()), _table.extent, _top.units()};
-    }
-
-    template <class Function> static void forRays(const TraceQueue& queue, const Function& function) {
-        const auto& header =
-            *reinterpret_cast<const gpu::QueueHeader*>(queue.header->mapped<char>() + queue.headerOffset);
-        const auto* rays = queue.rays->mapped<gpu::Ray>();
-        tbb::parallel_for(tbb::blocked_range<uint32_t>(0, header.count, RAYS_PER_TASK),
-                          [&](const auto& range) {
-                              const FlushDenormals flush;
-                              function(range.begin(), range.end() - range.begin(), rays + range.begin());
-                          });
     }
 
     [[noreturn]] static void recordingIsWrong() {

@@ -7,6 +7,7 @@
 #include "renderer/accel/device_instances.h"
 #include "renderer/accel/device_traversal.h"
 #include "renderer/accel/geometry_bounds.h"
+#include "renderer/accel/geometry_slots.h"
 #include "renderer/accel/ray_query_structures.h"
 
 namespace hipr {
@@ -41,18 +42,8 @@ public:
           _device(device), _functions(device) {}
 
     void setGeometry(uint32_t slot, const GeometryView* view) override {
-        if (slot >= _geometries.size()) _geometries.resize(slot + 1);
+        setSlot(_geometries, slot, view);
         _instancesChanged = true; // boxes of instances follow their geometry
-        std::unique_ptr<RayQueryGeometry>& g = _geometries[slot];
-        if (!view) {
-            g.reset();
-            return;
-        }
-        if (!g) g = std::make_unique<RayQueryGeometry>();
-        const bool same = view->sameTopology && (!g->changed || g->view.sameTopology);
-        g->view = *view;
-        g->view.sameTopology = same; // as what was built last, not as what was set last
-        g->changed = true;
     }
 
     void setInstances(const std::vector<gpu::InstanceRecord>& instances) override {

@@ -168,7 +168,6 @@ void TileSchedule::advance() {
     _front.advance(_frontTaken);
     _rest.advance(_restTaken);
     _owed = _owedAfter;
-    _work.clear();
     if (_unsorted) sort(_everything);
 }
 

@@ -312,9 +312,8 @@ bool RendererImpl::renderSamples() {
             _tracer.trace(_scene.traversal(), tiles, paths, _cancel, _edits.discovery(), _edits.changes());
         if (!done) return _edits.traced(false), false;
         _edits.measured(tiles);
-        const std::vector<gpu::TileWork> rendered = tiles;
         _schedule.advance();
-        _log.batch(rendered, paths, _schedule);
+        _log.batch(tiles, paths, _schedule);
         _edits.traced(true);
         _batch.report(paths, secondsSince(start));
     }

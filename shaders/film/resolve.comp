@@ -23,12 +23,7 @@ void replaceFirstSample(TraceRecord trace, uint pixel, vec3 radiance) {
     if (trace.changeScale > 0.0) {
         const vec3 difference = (radiance - FirstSampleRef(trace.firstSamples).v[pixel]) * (trace.changeScale / 3.0);
         const float change = min(dot(abs(difference), vec3(1.0)), MAX_PIXEL_CHANGE);
-        const float signedChange = clamp(dot(difference, vec3(1.0)), -MAX_PIXEL_CHANGE, MAX_PIXEL_CHANGE);
-        TileChangeRef changes = TileChangeRef(trace.tileChanges);
-        if (change > 0.0) {
-            atomicAdd(changes.v[gl_WorkGroupID.y].change, uint(change));
-            atomicAdd(changes.v[gl_WorkGroupID.y].difference, int(signedChange));
-        }
+        if (change > 0.0) atomicAdd(TileChangeRef(trace.tileChanges).v[gl_WorkGroupID.y].change, uint(change));
     }
     FirstSampleRef(trace.firstSamples).v[pixel] = radiance;
 }

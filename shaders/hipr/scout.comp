@@ -17,5 +17,5 @@ void main() {
     const vec3 radiance = pathRadiance(trace, path);
     const vec3 difference = radiance - FirstSampleRef(trace.firstSamples).v[x + y * trace.width];
     ScoutResultRef(trace.scoutResults).v[i] =
-        ScoutResult(path.pixel, channelMean(abs(difference)), channelMean(difference), channelMean(radiance));
+        ScoutResult(path.pixel, channelMean(abs(difference)), channelMean(radiance));
 }

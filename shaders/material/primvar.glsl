@@ -16,7 +16,7 @@ vec4 readPrimvarValue(PrimvarRecord primvar, uint element) {
     uint first = element * primvar.components;
     vec4 value = vec4(0.0, 0.0, 0.0, 1.0);
     value.x = values.v[first];
-    if (primvar.components == 1u) return vec4(value.xxx, 1.0);
+    if (primvar.components == 1u) return vec4(vec3(value.x), 1.0);
     value.y = values.v[first + 1u];
     if (primvar.components > 2u) value.z = values.v[first + 2u];
     if (primvar.components > 3u) value.w = values.v[first + 3u];

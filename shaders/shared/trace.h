@@ -81,7 +81,6 @@ struct FilmPixel {
 struct ScoutResult {
     uint pixel;              // x + y * 65536
     float change;            // mean over the channels of |new - old|
-    float difference;        // mean over the channels of new - old
     float radiance;          // mean over the channels of new
 };
 
@@ -95,7 +94,6 @@ struct OldPixel {
 // 1 / TraceRecord::changeScale, whole numbers so that no order of adding shows.
 struct TileChange {
     uint change;             // of the mean over the channels of |new - old|
-    int difference;          // of the mean over the channels of new - old
 };
 HIPR_CONST float MAX_PIXEL_CHANGE = 65535.0f; // in the same units; 2^15 pixels fit
 

@@ -23,7 +23,7 @@ std::vector<float> run(Survey& survey, const std::function<float(uint32_t, uint3
             for (uint32_t i = 0; i < w.width * w.height; ++i) {
                 const uint32_t x = w.x + w.stride * (i % w.width), y = w.y + w.stride * (i / w.width);
                 const float c = change(x, y);
-                results.push_back({x | y << 16, c, c, 1.f});
+                results.push_back({x | y << 16, c, 1.f});
             }
         }
         EXPECT_EQ(results.size(), survey.pathCount());
@@ -120,7 +120,7 @@ TEST(Survey, KnowsItsFirstRound) {
         const bool inFirst = survey.firstRound();
         const std::vector<gpu::TileWork> work = survey.next(100);
         if (work.empty()) break;
-        std::vector<gpu::ScoutResult> results(survey.pathCount(), gpu::ScoutResult{0, 0.f, 0.f, 1.f});
+        std::vector<gpu::ScoutResult> results(survey.pathCount(), gpu::ScoutResult{0, 0.f, 1.f});
         first += inFirst ? results.size() : 0;
         survey.report(results);
     }
