@@ -34,6 +34,12 @@ void SceneEdit::setGeometry(GeometryId id, std::shared_ptr<const TriangleMesh> m
 void SceneEdit::removeGeometry(GeometryId id) {
     record(GeometryOp{id, nullptr});
 }
+void SceneEdit::setSplats(SplatsId id, std::shared_ptr<const SplatCloud> cloud) {
+    record(SplatsOp{id, std::move(cloud)});
+}
+void SceneEdit::removeSplats(SplatsId id) {
+    record(SplatsOp{id, nullptr});
+}
 void SceneEdit::setMaterial(MaterialId id, MaterialDesc desc) {
     record(MaterialOp{id, std::move(desc)});
 }

@@ -10,6 +10,7 @@
 #include "renderer/api/light.h"
 #include "renderer/api/material.h"
 #include "renderer/api/mesh.h"
+#include "renderer/api/splats.h"
 
 namespace hipr {
 
@@ -22,13 +23,14 @@ struct CameraDesc {
     }
 };
 
-/// An object: one geometry, its materials, and its placement.
+/// An object: one geometry or one cloud of splats, its materials, and its placement.
 struct ObjectDesc {
     std::string name;
     GeometryId geometry = GeometryId::None;
     std::vector<MaterialId> materials; ///< by slot; a missing or None entry uses the fallback look (displayColor)
     bool visible = true;
     int primId = -1;                   ///< written to the primId AOV
+    SplatsId splats = SplatsId::None;  ///< a cloud of splats, which has no materials, instead of a geometry
 };
 
 /// All placements of one object. The geometry is never copied per instance. An object that was never given
@@ -81,6 +83,8 @@ class SceneEdit {
 public:
     void setGeometry(GeometryId id, std::shared_ptr<const TriangleMesh> mesh);
     void removeGeometry(GeometryId id);
+    void setSplats(SplatsId id, std::shared_ptr<const SplatCloud> cloud);
+    void removeSplats(SplatsId id);
     void setMaterial(MaterialId id, MaterialDesc desc);
     void removeMaterial(MaterialId id);
     void setLight(LightId id, LightDesc desc);
@@ -98,12 +102,13 @@ public:
 
     /// One recorded call; a null payload means removal.
     struct GeometryOp { GeometryId id; std::shared_ptr<const TriangleMesh> mesh; };
+    struct SplatsOp { SplatsId id; std::shared_ptr<const SplatCloud> cloud; };
     struct MaterialOp { MaterialId id; std::optional<MaterialDesc> desc; };
     struct LightOp { LightId id; std::optional<LightDesc> desc; };
     struct ObjectOp { ObjectId id; std::optional<ObjectDesc> desc; };
     struct InstancesOp { ObjectId id; InstancesDesc desc; };
     struct CameraOp { CameraDesc desc; };
-    using Op = std::variant<GeometryOp, MaterialOp, LightOp, ObjectOp, InstancesOp, CameraOp>;
+    using Op = std::variant<GeometryOp, SplatsOp, MaterialOp, LightOp, ObjectOp, InstancesOp, CameraOp>;
 
     /// Moves the recorded calls out, in order. Used by Renderer::commit().
     std::vector<Op> take();

@@ -18,6 +18,7 @@ enum class GeometryId : uint32_t { None = 0 };
 enum class MaterialId : uint32_t { None = 0 };
 enum class LightId : uint32_t { None = 0 };
 enum class ObjectId : uint32_t { None = 0 };
+enum class SplatsId : uint32_t { None = 0 };
 
 enum class Severity { Info, Warning, Error };
 

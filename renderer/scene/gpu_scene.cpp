@@ -97,6 +97,12 @@ void GpuScene::apply(const SceneEdit::GeometryOp& op, ChangedSet& changed) {
     if (change != Change::None) _objects.geometryChanged(op.id, change, changed);
 }
 
+void GpuScene::apply(const SceneEdit::SplatsOp& op, ChangedSet& changed) {
+    const Change change =
+        op.cloud ? _splats.set(op.id, op.cloud) : (_splats.remove(op.id) ? Change::Removed : Change::None);
+    if (change != Change::None) _objects.splatsChanged(op.id, changed);
+}
+
 void GpuScene::apply(const SceneEdit::MaterialOp& op, ChangedSet& changed) {
     auto it = _materialDescs.find(op.id);
     if (!op.desc) {
@@ -104,6 +110,7 @@ void GpuScene::apply(const SceneEdit::MaterialOp& op, ChangedSet& changed) {
         _materialDescs.erase(it);
         _materials.remove(op.id);
         changed.elements.push_back({op.id, Change::Removed});
+        _tracedChanged = true;
         return;
     }
     if (it != _materialDescs.end() && it->second == *op.desc) return;
@@ -113,6 +120,7 @@ void GpuScene::apply(const SceneEdit::MaterialOp& op, ChangedSet& changed) {
     if (emitted || _materials.emissive(op.id)) change = change | Change::Emission;
     _materialDescs[op.id] = *op.desc;
     changed.elements.push_back({op.id, change});
+    _tracedChanged = true;
 }
 
 void GpuScene::apply(const SceneEdit::LightOp& op, ChangedSet& changed) {
@@ -130,6 +138,7 @@ void GpuScene::apply(const SceneEdit::LightOp& op, ChangedSet& changed) {
         if (_options.lights) _lights.set(op.id, *op.desc);
     }
     changed.elements.push_back({op.id, change});
+    _tracedChanged = true;
 }
 
 void GpuScene::apply(const SceneEdit::ObjectOp& op, ChangedSet& changed) {
@@ -166,10 +175,11 @@ void GpuScene::commit() {
     _textures.commit();
     _materials.commit();
     _geometries.commit(*_traversal);
-    if (_objects.commit(_geometries, _options.materials ? &_materials : nullptr) || _traversalChanged)
+    if (_objects.commit(_geometries, _splats, _options.materials ? &_materials : nullptr) ||
+        _traversalChanged)
         _traversal->setInstances(_objects.records());
     _traversal->commit();
-    _traversalChanged = false;
+    _traversalChanged = _tracedChanged = false;
 
     _hostRecord = {};
     _objects.describe(_hostRecord);

@@ -35,6 +35,9 @@ public:
     /// Loads textures, uploads tables, builds acceleration structures. Blocking.
     void commit();
 
+    /// Whether apply() has changed what paths meet or bring home, the camera aside: splats do neither. Before
+    /// commit().
+    bool tracedChanged() const { return _tracedChanged || _objects.tracedChanged(); }
     /// Where changed objects were: after apply(), before commit().
     std::vector<WorldBox> takeVacated() { return _objects.takeVacated(); }
     /// Adds where changed objects are: after commit().
@@ -55,14 +58,19 @@ public:
 
     const std::optional<CameraDesc>& camera() const { return _camera; }
     NameTable& names() { return _names; }
+    const SplatTable& splats() const { return _splats; }
+    /// Where clouds of splats stand: after commit().
+    std::vector<SplatPlacement> splatPlacements() const { return _objects.splats(); }
     /// The SceneRecord, once committed.
     VkDeviceAddress address() const { return _record.address(); }
     bool hasNonOpaque() const { return (_hostRecord.flags & gpu::SCENE_HAS_NON_OPAQUE) != 0; }
     uint64_t meshHostBytes() const { return _geometries.hostBytes(); }
+    uint64_t splatHostBytes() const { return _splats.hostBytes(); }
     uint64_t traversalHostBytes() const { return _traversal->hostBytes(); }
 
 private:
     void apply(const SceneEdit::GeometryOp& op, ChangedSet& changed);
+    void apply(const SceneEdit::SplatsOp& op, ChangedSet& changed);
     void apply(const SceneEdit::MaterialOp& op, ChangedSet& changed);
     void apply(const SceneEdit::LightOp& op, ChangedSet& changed);
     void apply(const SceneEdit::ObjectOp& op, ChangedSet& changed);
@@ -76,6 +84,7 @@ private:
     MaterialTable _materials;
     LightTable _lights;
     GeometryTable _geometries;
+    SplatTable _splats;
     ObjectTable _objects;
     std::unique_ptr<Traversal> _traversal;
 
@@ -83,7 +92,7 @@ private:
     std::map<LightId, LightDesc> _lightDescs;
     std::optional<CameraDesc> _camera;
     SceneOptions _options;
-    bool _traversalChanged = true, _cameraLightReported = false;
+    bool _traversalChanged = true, _tracedChanged = false, _cameraLightReported = false;
     gpu::SceneRecord _hostRecord{};
     Buffer _record;
 };

@@ -34,10 +34,6 @@ bool isTranslucent(const std::vector<Primvar>& primvars) {
     return false;
 }
 
-void note(ChangedSet& changed, ObjectId id, Change change, uint32_t instance = ChangedElement::AllInstances) {
-    if (change != Change::None) changed.elements.push_back({id, change, instance});
-}
-
 } // namespace
 
 bool ObjectTable::Placement::operator==(const Placement& o) const {
@@ -46,24 +42,32 @@ bool ObjectTable::Placement::operator==(const Placement& o) const {
            primId == o.primId;
 }
 
+void ObjectTable::note(ChangedSet& changed, ObjectId id, const Entry& entry, Change change,
+                       uint32_t instance) {
+    if (change == Change::None) return;
+    changed.elements.push_back({id, change, instance});
+    _tracedChanged |= entry.placed.count > 0 || (entry.desc && entry.desc->geometry != GeometryId::None);
+}
+
 void ObjectTable::setObject(ObjectId id, const ObjectDesc& desc, ChangedSet& changed) {
     Entry& entry = _entries[id];
+    Change change = Change::None;
     if (!entry.desc) {
         entry.fresh = true;
-        note(changed, id, Change::Added);
+        change = Change::Added;
     } else if (!entry.fresh) {
-        Change change = Change::None;
-        if (entry.desc->geometry != desc.geometry) change = change | Change::Geometry;
+        if (entry.desc->geometry != desc.geometry || entry.desc->splats != desc.splats)
+            change = change | Change::Geometry;
         if (entry.desc->materials != desc.materials) change = change | Change::Material;
         if (entry.desc->visible != desc.visible) change = change | Change::Visibility;
         if (entry.desc->primId != desc.primId) change = change | Change::Primvar;
-        note(changed, id, change);
         if (change != Change::None) vacate(entry);
     }
     entry.boundsPending = true;
     entry.missingReported = false;
     if (!entry.desc || entry.desc->name != desc.name) _order.clear();
     entry.desc = desc;
+    note(changed, id, entry, change);
 }
 
 void ObjectTable::setInstances(ObjectId id, const InstancesDesc& desc, ChangedSet& changed) {
@@ -74,7 +78,7 @@ void ObjectTable::setInstances(ObjectId id, const InstancesDesc& desc, ChangedSe
     if (changes.empty()) return;
     const bool known = entry.desc && !entry.fresh; // that the object is new says it all
     for (size_t i = 0; i < changes.size() && known; ++i) {
-        note(changed, id, changes[i].change, changes[i].instance);
+        note(changed, id, entry, changes[i].change, changes[i].instance);
         if (changes[i].change != Change::Added) vacate(entry, changes[i].instance);
     }
     entry.instances = desc;
@@ -85,9 +89,9 @@ void ObjectTable::removeObject(ObjectId id, ChangedSet& changed) {
     const auto found = _entries.find(id);
     if (found == _entries.end()) return;
     vacate(found->second);
+    note(changed, id, found->second, Change::Removed);
     _entries.erase(found);
     _order.clear();
-    note(changed, id, Change::Removed);
 }
 
 void ObjectTable::geometryChanged(GeometryId geometry, Change change, ChangedSet& changed) {
@@ -96,19 +100,22 @@ void ObjectTable::geometryChanged(GeometryId geometry, Change change, ChangedSet
         entry.boundsPending = true;
         entry.missingReported = false;
         if (entry.fresh) continue;
-        note(changed, id, change == Change::Primvar ? Change::Primvar : Change::Geometry);
+        note(changed, id, entry, change == Change::Primvar ? Change::Primvar : Change::Geometry);
         vacate(entry);
     }
+}
+
+void ObjectTable::reportMissing(Entry& entry, const char* what) {
+    if (entry.missingReported) return;
+    entry.missingReported = true;
+    _device.messages()(Severity::Warning, entry.desc->name,
+                       std::string(what) + " not in the scene; the object is not rendered");
 }
 
 const Geometry* ObjectTable::shownGeometry(Entry& entry, const GeometryTable& geometries) {
     if (!entry.desc || !entry.desc->visible || entry.desc->geometry == GeometryId::None) return nullptr;
     const Geometry* geometry = geometries.find(entry.desc->geometry);
-    if (!geometry && !entry.missingReported) {
-        entry.missingReported = true;
-        _device.messages()(Severity::Warning, entry.desc->name,
-                           "its geometry is not in the scene; the object is not rendered");
-    }
+    if (!geometry) reportMissing(entry, "its geometry is");
     return geometry && !geometry->mesh->triangles.empty() ? geometry : nullptr;
 }
 
@@ -213,11 +220,12 @@ void ObjectTable::writeRecords(ObjectId id, Entry& entry) {
     }
 }
 
-/// The world box of a committed record.
-WorldBox ObjectTable::placedBox(const Entry& entry, uint32_t record) const {
+/// The world box of a committed instance, counted among those that can be rendered.
+WorldBox ObjectTable::placedBox(const Entry& entry, uint32_t i) const {
     const glm::vec3 centre = 0.5f * (entry.meshBox.min + entry.meshBox.max),
                     half = 0.5f * (entry.meshBox.max - entry.meshBox.min);
-    const glm::mat4x3& m = _records[record].objectToWorld;
+    const glm::mat4x3& m =
+        entry.splats.empty() ? _records[entry.placed.first + i].objectToWorld : entry.splats[i].objectToWorld;
     const glm::vec3 c = m * glm::vec4(centre, 1.f);
     const glm::vec3 h = glm::abs(m[0]) * half.x + glm::abs(m[1]) * half.y + glm::abs(m[2]) * half.z;
     return {c - h, c + h};
@@ -225,12 +233,11 @@ WorldBox ObjectTable::placedBox(const Entry& entry, uint32_t record) const {
 
 /// The committed box of one instance or of all; empty if it is not rendered.
 WorldBox ObjectTable::instanceBox(const Entry& entry, uint32_t instance) const {
-    if (entry.placed.count == 0) return {};
+    if (entry.placed.count == 0 && entry.splats.empty()) return {};
     if (instance == ChangedElement::AllInstances) return entry.box;
     const auto found = std::lower_bound(entry.usable.begin(), entry.usable.end(), instance);
     const bool usable = found != entry.usable.end() && *found == instance;
-    return usable ? placedBox(entry, entry.placed.first + uint32_t(found - entry.usable.begin()))
-                  : WorldBox();
+    return usable ? placedBox(entry, uint32_t(found - entry.usable.begin())) : WorldBox();
 }
 
 void ObjectTable::vacate(const Entry& entry, uint32_t instance) {
@@ -270,11 +277,10 @@ void ObjectTable::addKeys(const ChangedElement& element, std::vector<gpu::Elemen
         });
 }
 
-void ObjectTable::updateBounds(Entry& entry, const TriangleMesh& mesh) {
-    entry.meshBox = {mesh.boundsMin, mesh.boundsMax};
+void ObjectTable::updateBox(Entry& entry) const {
     entry.box = {};
-    for (uint32_t i = 0; i < entry.placed.count; ++i)
-        entry.box.add(placedBox(entry, entry.placed.first + i));
+    for (uint32_t i = 0; i < std::max<size_t>(entry.placed.count, entry.splats.size()); ++i)
+        entry.box.add(placedBox(entry, i));
 }
 
 const std::vector<ObjectId>& ObjectTable::order() {
@@ -289,22 +295,27 @@ const std::vector<ObjectId>& ObjectTable::order() {
     return _order;
 }
 
-bool ObjectTable::commit(const GeometryTable& geometries, const MaterialTable* materials) {
+bool ObjectTable::commit(const GeometryTable& geometries, const SplatTable& splats,
+                         const MaterialTable* materials) {
+    _tracedChanged = false;
     std::vector<uint32_t> materialIndices;
     std::vector<std::pair<ObjectId, Entry*>> rewritten;
     uint32_t total = 0;
     for (const ObjectId id : order()) {
         Entry& entry = _entries.at(id);
         entry.fresh = false;
-        const Geometry* geometry = shownGeometry(entry, geometries);
-        const bool transformsChanged = geometry && entry.transformsPending;
+        const SplatSet* set = shownSplats(entry, splats);
+        const Geometry* geometry = set ? nullptr : shownGeometry(entry, geometries);
+        const bool transformsChanged = (geometry || set) && entry.transformsPending;
         if (transformsChanged) {
             findUsable(entry);
             uploadPrimvars(entry);
             entry.transformsPending = false;
         }
+        placeSplats(entry, set);
         const Placement placement = place(entry, geometry, materials, total, materialIndices);
-        if (transformsChanged || !(placement == entry.placed)) rewritten.push_back({id, &entry});
+        if ((transformsChanged && geometry) || !(placement == entry.placed))
+            rewritten.push_back({id, &entry});
         entry.placed = placement;
         total += placement.count;
     }
@@ -345,7 +356,11 @@ void ObjectTable::summarise(const GeometryTable& geometries) {
     _nonOpaque = false;
     for (auto& [id, entry] : _entries) {
         if (entry.placed.count == 0) continue;
-        if (entry.boundsPending) updateBounds(entry, *geometries.find(entry.desc->geometry)->mesh);
+        if (entry.boundsPending) {
+            const TriangleMesh& mesh = *geometries.find(entry.desc->geometry)->mesh;
+            entry.meshBox = {mesh.boundsMin, mesh.boundsMax};
+            updateBox(entry);
+        }
         entry.boundsPending = false;
         _boundsMin = glm::min(_boundsMin, entry.box.min);
         _boundsMax = glm::max(_boundsMax, entry.box.max);

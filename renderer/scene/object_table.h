@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "renderer/scene/geometry_table.h"
+#include "renderer/scene/splat_table.h"
 #include "renderer/scene/world_box.h"
 #include "renderer/shading/materials.h"
 #include "shaders/shared/hipr.h"
@@ -27,12 +28,17 @@ public:
     void removeObject(ObjectId id, ChangedSet& changed);
     /// Reports a change of a geometry for all objects that show it.
     void geometryChanged(GeometryId id, Change change, ChangedSet& changed);
+    void splatsChanged(SplatsId id, ChangedSet& changed);
+    /// Whether any change reported since the last commit() is of an object that paths meet.
+    bool tracedChanged() const { return _tracedChanged; }
 
     /// Brings the tables up to date with objects, geometries and materials. Returns whether an instance
     /// changed in a way a traversal must know. `materials` null: every object shows the fallback look.
-    bool commit(const GeometryTable& geometries, const MaterialTable* materials);
+    bool commit(const GeometryTable& geometries, const SplatTable& splats, const MaterialTable* materials);
 
     const std::vector<gpu::InstanceRecord>& records() const { return _records; }
+    /// Where clouds of splats stand, in the order of the objects' names; as of the last commit.
+    std::vector<SplatPlacement> splats() const;
     /// Where objects that were changed since the last call had been before; for after the edits, before
     /// commit().
     std::vector<WorldBox> takeVacated() { return std::exchange(_vacated, {}); }
@@ -44,7 +50,8 @@ public:
     /// Fills instances, materialIndices, instanceCount, bounds and SCENE_HAS_NON_OPAQUE.
     void describe(gpu::SceneRecord& scene) const;
     /// Every object with what it shows, as of the last commit.
-    void dump(SceneDump& dump, const GeometryTable& geometries, const MaterialNames& nameOf) const;
+    void dump(SceneDump& dump, const GeometryTable& geometries, const SplatTable& splats,
+              const MaterialNames& nameOf) const;
 
 private:
     /// Where an object's instances are and what they have in common.
@@ -61,14 +68,20 @@ private:
         Buffer primvars;
         uint32_t primvarCount = 0;
         uint64_t primvarTable = 0;
-        WorldBox meshBox, box; ///< of the geometry, in object space; of all instances
+        WorldBox meshBox, box; ///< of the geometry or the splats, in object space; of all instances
         bool transformsPending = true, boundsPending = true;
         bool missingReported = false;
         bool fresh = false; ///< added since the last commit: what else is said of it is no change
+        std::vector<SplatPlacement> splats; ///< of `usable`, as of the last commit
     };
 
     void dumpInstances(SceneDump::Element& out, const Entry& entry) const;
+    void note(ChangedSet& changed, ObjectId id, const Entry& entry, Change change,
+              uint32_t instance = ChangedElement::AllInstances);
+    void reportMissing(Entry& entry, const char* what);
     const Geometry* shownGeometry(Entry& entry, const GeometryTable& geometries);
+    const SplatSet* shownSplats(Entry& entry, const SplatTable& splats);
+    void placeSplats(Entry& entry, const SplatSet* shown);
     Placement place(Entry& entry, const Geometry* geometry, const MaterialTable* materials, uint32_t first,
                     std::vector<uint32_t>& materialIndices);
     /// Ids by the name of the object: hits at equal distance go to the first, and ids tell the history of
@@ -79,9 +92,9 @@ private:
     void writeRecords(ObjectId id, Entry& entry);
     void uploadRecords(const std::vector<std::pair<ObjectId, Entry*>>& rewritten);
     void summarise(const GeometryTable& geometries);
-    void updateBounds(Entry& entry, const TriangleMesh& mesh);
+    void updateBox(Entry& entry) const;
     void vacate(const Entry& entry, uint32_t instance = ChangedElement::AllInstances);
-    WorldBox placedBox(const Entry& entry, uint32_t record) const;
+    WorldBox placedBox(const Entry& entry, uint32_t i) const;
     WorldBox instanceBox(const Entry& entry, uint32_t instance) const;
     template <class Visitor> void forObjectsShowing(MaterialId material, Visitor&& visit) const;
 
@@ -94,7 +107,7 @@ private:
     DeviceTable _recordTable, _materialTable;
     std::vector<WorldBox> _vacated;
     glm::vec3 _boundsMin{0.f}, _boundsMax{0.f};
-    bool _nonOpaque = false;
+    bool _nonOpaque = false, _tracedChanged = false;
 };
 
 } // namespace hipr

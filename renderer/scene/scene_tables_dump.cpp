@@ -24,15 +24,18 @@ void GeometryTable::dump(SceneDump& dump) const {
 }
 
 // The primId is left out: hosts number prims in the order in which they came.
-void ObjectTable::dump(SceneDump& dump, const GeometryTable& geometries, const MaterialNames& nameOf) const {
+void ObjectTable::dump(SceneDump& dump, const GeometryTable& geometries, const SplatTable& splats,
+                       const MaterialNames& nameOf) const {
     for (const auto& [id, entry] : _entries) {
         SceneDump::Element& out = dump.element("object", entry.desc ? entry.desc->name : "");
         out.fact("visible", entry.desc && entry.desc->visible);
-        out.fact("rendered", entry.placed.count > 0);
+        out.fact("rendered", entry.placed.count > 0 || !entry.splats.empty());
         out.fact("nonOpaque", (entry.placed.flags & gpu::INSTANCE_NON_OPAQUE) != 0);
         if (!entry.desc) continue;
         const Geometry* geometry = geometries.find(entry.desc->geometry);
         out.fact("geometry", geometry ? geometry->mesh->name : std::string());
+        const SplatSet* set = splats.find(entry.desc->splats);
+        out.fact("splats", set ? set->cloud->name : std::string());
         for (uint32_t slot = 0; slot < entry.desc->materials.size(); ++slot)
             out.fact("slot", slot, "bound", nameOf.byId(entry.desc->materials[slot]));
         for (uint32_t slot = 0; slot < entry.placed.materialCount; ++slot)
@@ -70,7 +73,8 @@ void GpuScene::dump(std::ostream& out, const Settings& settings) const {
     for (const auto& [id, desc] : _lightDescs)
         dumpLight(dump, desc, _lights.emits(id));
     _geometries.dump(dump);
-    _objects.dump(dump, _geometries, names);
+    _splats.dump(dump);
+    _objects.dump(dump, _geometries, _splats, names);
     SceneDump::Element& options = dump.element("option", "scene");
     options.fact("lights", _options.lights);
     options.fact("materials", _options.materials);

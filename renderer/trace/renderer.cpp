@@ -131,12 +131,12 @@ ChangedSet RendererImpl::commit(SceneEdit& edit) {
     guarded([&] {
         changed = _scene.apply(edit.take());
         if (changed.empty()) return true;
+        const bool camera = anyCamera(changed), traced = _scene.tracedChanged();
         std::vector<WorldBox> regions = _scene.takeVacated();
         _scene.commit();
         _scene.addOccupied(changed, regions);
-        const bool camera = anyCamera(changed);
-        restart(camera ? Cause::Camera : Cause::Edit);
-        if (!camera) startSearch(changed, regions);
+        if (camera || traced) restart(camera ? Cause::Camera : Cause::Edit);
+        if (!camera && traced) startSearch(changed, regions);
         return true;
     });
     return changed;

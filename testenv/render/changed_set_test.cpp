@@ -14,6 +14,7 @@ constexpr GeometryId quad{1};
 constexpr MaterialId grey{2};
 constexpr ObjectId object{3};
 constexpr LightId lamp{4};
+constexpr SplatsId splats{5};
 constexpr uint32_t All = ChangedElement::AllInstances;
 
 using Named = std::vector<std::pair<Change, uint32_t>>;
@@ -22,7 +23,16 @@ using Named = std::vector<std::pair<Change, uint32_t>>;
 struct Outcome {
     Named named;                       ///< of `object`
     std::vector<float> left, occupied; ///< x of the centres of the boxes
+    bool traced = false;               ///< paths notice
 };
+
+std::shared_ptr<const SplatCloud> oneSplat(float x) {
+    SplatCloud cloud;
+    cloud.name = "/object";
+    cloud.positions = {{x, 0, 0}};
+    cloud.scales = {glm::vec3(0)}; // the centres of the boxes are exact
+    return std::make_shared<SplatCloud>(cloud);
+}
 
 /// A scene on a device, without anything that renders it. The object is a row of squares along x.
 class Committed {
@@ -48,8 +58,10 @@ public:
     }
     Outcome commit() {
         const ChangedSet changed = _scene->apply(edit.take());
+        const bool traced = _scene->tracedChanged();
         std::vector<WorldBox> regions = _scene->takeVacated();
         Outcome outcome;
+        outcome.traced = traced;
         outcome.left = centres(regions);
         regions.clear();
         _scene->commit();
@@ -60,6 +72,16 @@ public:
                 outcome.named.push_back({element.change, element.instance});
         return outcome;
     }
+
+    /// Stands for the object of the row from now on.
+    void showSplats(std::shared_ptr<const SplatCloud> cloud) {
+        ObjectDesc shown = desc();
+        shown.geometry = GeometryId::None;
+        shown.splats = splats;
+        edit.setSplats(splats, std::move(cloud));
+        edit.setObject(object, shown);
+    }
+    std::vector<SplatPlacement> placements() const { return _scene->splatPlacements(); }
 
     SceneEdit edit;
 
@@ -196,4 +218,37 @@ TEST(ChangedSet, OfSettingsAndFilmHoldsOneElement) {
     settings.maxDepth += 1;
     EXPECT_EQ(kinds(stage.renderer->setSettings(settings)), "setting");
     EXPECT_EQ(kinds(stage.renderer->setSettings(settings)), "");
+}
+
+TEST(ChangedSet, SplatsAreNamedLikeMeshesButTracedByNobody) {
+    Committed scene;
+    scene.showSplats(oneSplat(0));
+    const Outcome shown = scene.commit();
+    EXPECT_EQ(shown.named, (Named{{Change::Geometry, All}}));
+    EXPECT_TRUE(shown.traced); // a mesh has gone
+    ASSERT_EQ(scene.placements().size(), 4u);
+    EXPECT_EQ(scene.placements()[2].objectToWorld[3].x, 20);
+
+    scene.edit.setInstances(object, Committed::row({0, 10, 25, 30}));
+    const Outcome moved = scene.commit();
+    EXPECT_EQ(moved.named, (Named{{Change::Transform, 2}}));
+    EXPECT_EQ(moved.left, Places{20});
+    EXPECT_EQ(moved.occupied, Places{25});
+    EXPECT_FALSE(moved.traced);
+    EXPECT_EQ(scene.placements()[2].objectToWorld[3].x, 25);
+
+    scene.edit.setSplats(splats, oneSplat(1));
+    const Outcome changed = scene.commit();
+    EXPECT_EQ(changed.named, (Named{{Change::Geometry, All}}));
+    EXPECT_EQ(changed.left, Places{15});
+    EXPECT_EQ(changed.occupied, Places{16});
+    EXPECT_FALSE(changed.traced);
+    scene.edit.setSplats(splats, oneSplat(1));
+    EXPECT_EQ(scene.commit().named, Named());
+
+    scene.edit.removeObject(object);
+    const Outcome removed = scene.commit();
+    EXPECT_FALSE(removed.traced);
+    EXPECT_EQ(removed.left, Places{16});
+    EXPECT_TRUE(scene.placements().empty());
 }
