@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <thread>
 #include <unistd.h>
 
@@ -360,29 +359,12 @@ void Recording::writePictures(FrameReport& report) {
 }
 
 void Recording::writeDump(const FrameReport& report) {
-    const std::string text = _engine.sceneDump();
-    if (_options.dumpFile == "-") {
-        std::fputs(text.c_str(), stdout);
-        return;
-    }
-    const std::string path = outputPath(FramePattern(_options.dumpFile), report);
-    std::ofstream file(path);
-    file << text;
-    file.close();
-    if (!file) throw Failure(ExitOutput, "cannot write '" + path + "'");
+    const bool toFile = _options.dumpFile != "-";
+    writeText(toFile ? outputPath(FramePattern(_options.dumpFile), report) : "-", _engine.sceneDump());
 }
 
 void Recording::finish() const {
-    if (_options.statsFile.empty()) return;
-    const std::string json = reportJson(_report);
-    if (_options.statsFile == "-") {
-        std::fputs(json.c_str(), stdout);
-        return;
-    }
-    std::ofstream file(_options.statsFile);
-    file << json;
-    file.close();
-    if (!file) throw Failure(ExitOutput, "cannot write '" + _options.statsFile + "'");
+    if (!_options.statsFile.empty()) writeText(_options.statsFile, reportJson(_report));
 }
 
 } // namespace

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <fstream>
 #include <nlohmann/json.hpp>
+
+#include "plugin/record/failure.h"
 
 #include "pxr/base/tf/stringUtils.h"
 #include "pxr/base/vt/value.h"
@@ -101,6 +104,17 @@ std::string memoryTable(const VtDictionary& stats) {
     for (const auto& [bytes, key] : rows)
         text += TfStringPrintf("%-28s %12s\n", key.c_str(), byteText(bytes).c_str());
     return text;
+}
+
+void writeText(const std::string& path, const std::string& text) {
+    if (path == "-") {
+        std::fputs(text.c_str(), stdout);
+        return;
+    }
+    std::ofstream file(path);
+    file << text;
+    file.close();
+    if (!file) throw Failure(ExitOutput, "cannot write '" + path + "'");
 }
 
 } // namespace hipr::record

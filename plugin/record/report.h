@@ -38,4 +38,7 @@ std::string reportJson(const RecordingReport& report);
 /// so when the renderer reports none.
 std::string memoryTable(const PXR_NS::VtDictionary& stats);
 
+/// Writes text to a file, or to standard output for "-". Throws Failure with ExitOutput.
+void writeText(const std::string& path, const std::string& text);
+
 } // namespace hipr::record

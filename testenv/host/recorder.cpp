@@ -13,6 +13,15 @@ std::string rendererUnderTest() {
     return name ? name : "HiPR";
 }
 
+std::string colourAt(const ImageFile& image, Spot spot) {
+    const float r = image.at("R", spot.x, spot.y), g = image.at("G", spot.x, spot.y),
+                b = image.at("B", spot.x, spot.y);
+    const float strongest = std::max({r, g, b}), others = r + g + b - strongest;
+    if (strongest < 0.01f) return "none";
+    if (others > 0.1f * strongest) return "mixed";
+    return strongest == r ? "red" : strongest == g ? "green" : "blue";
+}
+
 RecorderTest::RecorderTest() {
     std::string pattern = (fs::temp_directory_path() / "hiprrecord_test_XXXXXX").string();
     _folder = mkdtemp(pattern.data());

@@ -19,6 +19,9 @@ struct Spot {
 constexpr Spot redSpot{0.25, 0.5}, greenSpot{0.75, 0.5}, blueSpot{0.5, 0.125}, emptySpot{0.05, 0.05},
     guideSpot{0.5, 0.94};
 
+/// "red", "green", "blue", "none" for black, "mixed" for anything else.
+std::string colourAt(const ImageFile& image, Spot spot);
+
 class RecorderTest : public testing::Test {
 protected:
     RecorderTest();

@@ -27,16 +27,6 @@ protected:
     }
 };
 
-/// "red", "green", "blue", "none" for black, "mixed" for anything else.
-std::string colourAt(const ImageFile& image, Spot spot) {
-    const float r = image.at("R", spot.x, spot.y), g = image.at("G", spot.x, spot.y),
-                b = image.at("B", spot.x, spot.y);
-    const float strongest = std::max({r, g, b}), others = r + g + b - strongest;
-    if (strongest < 0.01f) return "none";
-    if (others > 0.1f * strongest) return "mixed";
-    return strongest == r ? "red" : strongest == g ? "green" : "blue";
-}
-
 TEST_F(RecorderPictures, ColourIsLinearAndTheTopRowComesFirst) {
     const ImageFile image = picture({});
     EXPECT_EQ(colourAt(image, redSpot), "red");
