@@ -136,7 +136,8 @@ const std::vector<gpu::TileWork>& TileSchedule::next(uint32_t maxPaths, uint32_t
         _restTaken = _rest.append(_work, _paths, maxPaths, samples, _grid, _states);
     }
     for (gpu::TileWork& work : _work) {
-        const TileState& state = _states[_grid.at(work.x, work.y)];
+        TileState& state = _states[_grid.at(work.x, work.y)];
+        if (work.firstSample == 0) state.foreseen = state.priority > 0.f;
         // What is on display already is an older picture yet: that stays the one to keep.
         if (work.firstSample == 0 && state.shown > 1 && !state.keepsOld) work.flags = gpu::TILE_SAVES_OLD;
     }

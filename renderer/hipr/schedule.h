@@ -16,6 +16,7 @@ struct TileState {
     float priority = 0.f;  ///< how much the edit shows, as estimated or measured; 0: not that anybody knows
     uint32_t shown = 0;    ///< samples in the mean on display, of whatever scene; 0: nothing was ever shown
     bool measured = false; ///< the priority is measured, no estimate
+    bool foreseen = false; ///< was discovered when its first sample was handed out
     bool keepsOld = false; ///< on display is the older picture, which the new samples have not changed so far
 };
 

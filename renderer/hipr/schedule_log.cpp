@@ -58,9 +58,9 @@ void ScheduleLog::batch(const std::vector<gpu::TileWork>& work, uint32_t paths,
     std::fprintf(_file.get(), ", \"paths\": %u, \"tiles\": [", paths);
     for (size_t i = 0; i < work.size(); ++i) {
         const gpu::TileWork& w = work[i];
-        const bool shown = !schedule.tiles()[schedule.grid().at(w.x, w.y)].keepsOld;
-        std::fprintf(_file.get(), "%s[%u, %u, %u, %u, %u, %u, %d]", i ? ", " : "", w.x, w.y, w.width,
-                     w.height, w.firstSample, w.sampleCount, int(shown));
+        const TileState& state = schedule.tiles()[schedule.grid().at(w.x, w.y)];
+        std::fprintf(_file.get(), "%s[%u, %u, %u, %u, %u, %u, %d, %d]", i ? ", " : "", w.x, w.y, w.width,
+                     w.height, w.firstSample, w.sampleCount, int(!state.keepsOld), int(state.foreseen));
     }
     std::fputs("]", _file.get());
     end();

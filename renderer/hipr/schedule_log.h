@@ -6,8 +6,9 @@
 ///   restart  `kind`: picture, edit, camera, everything; `width`, `height`, `tileSize`
 ///   survey   `paths`: scouts of a batch
 ///   order    `tiles`: [x, y, priority] of discovered tiles; in mode paper first of the active ones alone
-///   batch    `paths`, `tiles`: [x, y, width, height, firstSample, sampleCount, shown]; shown is 0 where
-///            the tile keeps its old picture on display, which these samples did not change
+///   batch    `paths`, `tiles`: [x, y, width, height, firstSample, sampleCount, shown, foreseen]; shown is 0
+///            where the tile keeps its old picture on display, which these samples did not change; foreseen
+///            is 1 where the tile had been discovered when its first sample was handed out
 #pragma once
 
 #include <chrono>

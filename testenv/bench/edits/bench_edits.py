@@ -4,7 +4,8 @@
 Every edit is made on a converged picture and rendered to convergence, in every mode, in turns. D is the difference of the
 converged pictures before and after (same seed: what an edit does not touch is equal to the last bit). T50, T90, T99 are
 the work (paths, scouts included) and the time until that share of D lies in tiles with a new sample. The first turn renders
-all samples and gives all figures of work; the other turns render few samples and give more times. numpy, OpenEXR and
+all samples and gives all figures of work and of the picture on display; the other turns render few samples and give more times.
+The last table says which goals are met; figures by the clock want an idle machine. numpy, OpenEXR and
 matplotlib come from PyPI into a virtual environment of their own, once.
 """
 
@@ -37,13 +38,15 @@ def enter_environment(folder):
 def parse():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--record", default="hiprrecord", help="the hiprrecord to measure")
-    parser.add_argument("--modes", default="uniform,delta,paper", help="uniform first: the yardstick [%(default)s]")
-    parser.add_argument("--samples", type=int, default=8)
+    parser.add_argument("--modes", default="uniform,delta",
+                        help="uniform first: the yardstick; MODE@SIZE sets hipr:tileSize, as in delta@16 [%(default)s]")
+    parser.add_argument("--samples", type=int, default=4, help="[%(default)s]")
+    parser.add_argument("--width", type=int, default=640, help="of the pictures, pixels [%(default)s]")
     parser.add_argument("--few", type=int, default=2, help="samples of the later turns [%(default)s]")
-    parser.add_argument("--turns", type=int, default=3)
+    parser.add_argument("--turns", type=int, default=1, help="more of them give more times [%(default)s]")
     parser.add_argument("--only", default="", metavar="REGEX", help="only scenes whose name matches")
-    parser.add_argument("--flip", default="move ball,only in mirror,only by shadow,roughness of brass,one of 2500 moved",
-                        metavar="EDIT,...", help="edits whose FLIP error is followed batch by batch [%(default)s]")
+    parser.add_argument("--flip", default="", metavar="EDIT,...", help="edits whose FLIP error is followed batch by batch, such as "
+                        "'only in mirror,roughness of brass'")
     parser.add_argument("--assets", type=Path, default=Path(os.environ.get("HIPR_ASSETS", HERE.parents[3] / "shared/assets")),
                         help="folder of the real scenes; skipped when missing [%(default)s]")
     parser.add_argument("--csv", type=Path, help="also write every figure here")
@@ -59,8 +62,8 @@ def parse():
 class Recorder:
     """Plays a scene's edits with hiprrecord."""
 
-    def __init__(self, program, settings, folder):
-        self.program, self.settings, self.folder = program, settings, folder
+    def __init__(self, program, width, settings, folder):
+        self.program, self.width, self.settings, self.folder = program, width, settings, folder
 
     def play(self, scene, mode, samples, turn, frames=False):
         """The runs, one a picture, and where the pictures are. `frames`: also the picture after every batch."""
@@ -70,11 +73,14 @@ class Recorder:
         folder.mkdir(parents=True, exist_ok=True)
         script, log = folder / "edits.json", folder / "log.jsonl"
         script.write_text(json.dumps({"edits": scene.edits}, indent=1))
-        settings = [word for text in (f"hipr:mode={mode}", *self.settings) for word in ("--set", text)]
+        name, _, tile = mode.partition("@")
+        chosen = [f"hipr:mode={name}"] + [f"hipr:tileSize={tile}"] * bool(tile)
+        settings = [word for text in (*chosen, *self.settings) for word in ("--set", text)]
         if frames:
             settings += ["--edit-frames", folder / "frames"]
-        subprocess.run([self.program, scene.stage, "-q", "--edits", script, "-o", folder / "picture.exr", "--size",
-                        f"{scene.size[0]}x{scene.size[1]}", "-n", str(samples), *settings],
+        size = f"{self.width}x{round(self.width * scene.aspect)}"
+        subprocess.run([self.program, scene.stage, "-q", "--edits", script, "-o", folder / "picture.exr", "--size", size,
+                        "-n", str(samples), *settings],
                        check=True, env={**os.environ, "HIPR_SCHEDULE_LOG": str(log)})
         return read_log(log, samples, len(scene.edits) + 1), folder
 
@@ -90,12 +96,12 @@ def main():
     with tempfile.TemporaryDirectory() as temporary:
         folder = options.keep or Path(temporary)
         folder.mkdir(parents=True, exist_ok=True)
-        recorder = Recorder(options.record, options.set, folder)
+        recorder = Recorder(options.record, options.width, options.set, folder)
         report = Report(options.modes.split(","))
         scenes = [scene for scene in all_scenes(folder, options.assets) if re.search(options.only, scene.name)]
         for scene in scenes:
             print(f"{scene.name}: {len(scene.edits)} edits", file=sys.stderr)
-            report.rows += measure(recorder, scene, options)
+            report.rows += measure(recorder, scene, options, report.processor)
             report.flip += edit_flip.measure(recorder, scene, options.flip.split(","), report.modes, options.samples)
         report.print(options)
         if options.csv:

@@ -48,12 +48,14 @@ def quality(run, energy):
     return ours.sum() / best.sum(), ours[:needed].sum() / best[:needed].sum()
 
 
-def found(run, energy):
-    """Recall: the discovered tiles' share of the energy. Waste: the share of discovered tiles that hold nothing."""
-    tiles = list(run.found)
-    if not tiles:
-        return 0.0, 0.0
-    return energy[tiles].sum() / energy.sum(), float((energy[tiles] == 0).mean())
+def recall(tiles, energy):
+    """The tiles' share of the energy."""
+    return float(energy[list(tiles)].sum() / energy.sum()) if tiles else 0.0
+
+
+def waste(tiles, energy):
+    """The share of the tiles that hold nothing."""
+    return float((energy[list(tiles)] == 0).mean()) if tiles else 0.0
 
 
 def frame(run):

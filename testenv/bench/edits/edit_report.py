@@ -4,13 +4,19 @@ import csv
 import os
 from statistics import median
 
-HEAD = ("| edit | shows in | T50 | T90 | T99 | T90 / uniform | on the clock | quality | strict | recall | found | waste | "
+from edit_goals import print_goals
+
+HEAD = ("| edit | shows in | T50 | T90 | T99 | T90 / uniform | on the clock | quality | strict | recall | followed | found | waste | "
         "scouts | survey | reveal |")
+
+
+DISPLAY_HEAD = ("| edit | region 25 % | region 10 % | region, sum | frame 25 % | frame 10 % | frame, sum |")
 
 
 class Report:
     def __init__(self, modes):
         self.modes, self.rows, self.flip = modes, [], []
+        self.processor = dict.fromkeys(modes, 0.0)  # seconds
 
     def _base(self, row):
         return next(r for r in self.rows if (r["scene"], r["edit"], r["mode"]) == (row["scene"], row["edit"], self.modes[0]))
@@ -22,12 +28,17 @@ class Report:
         """Ratios of time, turn by turn."""
         return sorted(a[share] / b[share] for a, b in zip(row["seconds"], self._base(row)["seconds"]))
 
+    def area(self, row, where, unit=0):
+        """Error on display, summed up over work (or seconds: unit 1), against uniform rendering."""
+        return row["shown"][where]["area"][unit] / self._base(row)["shown"][where]["area"][unit]
+
     def _line(self, row):
         clock = self.clock(row)
         frames = [paths / row["pixels"] for paths in row["paths"]]
         cells = [f"{row['scene']}: {row['edit']}", f"{100 * row['region']:.1f} %", *(f"{f:.2f}" for f in frames),
                  f"{self.ratio(row):.2f}", f"{median(clock):.2f} ({clock[0]:.2f}-{clock[-1]:.2f})",
                  f"{row['quality']:.2f}", f"{row['strict']:.2f}", f"{100 * row['recall']:.1f} %",
+                 f"{100 * row['followed']:.1f} %",
                  f"{row['found']} of {row['tiles']}", f"{100 * row['waste']:.0f} %",
                  f"{100 * row['scouts'] / row['pixels']:.1f} %",
                  f"{100 * row['surveyed'] / self._base(row)['frame']:.1f} %",
@@ -42,7 +53,8 @@ class Report:
         print(f"{mode}, {len(rows)} {kind} edits: T90 / uniform median {median(t90):.2f}, worst {max(t90):.2f}; on the clock "
               f"median {median(clock):.2f}, worst {max(clock):.2f}; quality median {median(r['quality'] for r in rows):.2f}, "
               f"strict {median(r['strict'] for r in rows):.2f}; recall least {100 * min(r['recall'] for r in rows):.1f} %, "
-              f"median {100 * median(r['recall'] for r in rows):.1f} %; scouts most "
+              f"median {100 * median(r['recall'] for r in rows):.1f} %; followed least "
+              f"{100 * min(r['followed'] for r in rows):.1f} %, median {100 * median(r['followed'] for r in rows):.1f} %; scouts most "
               f"{100 * max(r['scouts'] / r['pixels'] for r in rows):.1f} % of a frame")
 
     def print(self, options):
@@ -62,7 +74,38 @@ class Report:
             self._summary(mode, [row for row in rows if row["local"]], "local")
             self._summary(mode, [row for row in rows if not row["local"]], "global")
 
+        print("\nProcessor seconds of whole recordings: " +
+              ", ".join(f"{mode} {seconds:.1f}" for mode, seconds in self.processor.items()))
+        for mode in self.modes[1:]:
+            self._print_display(mode)
         self._print_flip()
+        print_goals(self)
+
+    def _print_display(self, mode):
+        """What the viewer sees: error of the picture on display."""
+        print(f"\nThe picture on display, {mode} and uniform: frames and seconds until its error is 25 % and 10 % of that at the "
+              "edit\n(changed region, then whole frame), and its sum over work and time against uniform\n")
+        print(DISPLAY_HEAD + "\n" + "|---" * (DISPLAY_HEAD.count("|") - 1) + "|")
+        rows = [row for row in self.rows if row["mode"] == mode]
+        for row in rows:
+            base, cells = self._base(row)["shown"], [f"{row['scene']}: {row['edit']}"]
+            for where, mine in row["shown"].items():
+                for (paths, seconds), (paths0, seconds0) in zip(mine["until"], base[where]["until"]):
+                    cells.append(f"{paths / row['pixels']:.2f}, {seconds:.2f} s / {paths0 / row['pixels']:.2f}, {seconds0:.2f} s")
+                cells.append(f"{self.area(row, where):.2f}, {self.area(row, where, 1):.2f}")
+            print("| " + " | ".join(cells) + " |")
+        for kind, some in (("local", [r for r in rows if r["local"]]), ("global", [r for r in rows if not r["local"]])):
+            if not some:
+                continue
+            for where in ("region", "frame"):
+                ratios = [[r["shown"][where]["until"][i][0] / self._base(r)["shown"][where]["until"][i][0] for r in some]
+                          for i in range(2)]
+                areas = [self.area(r, where) for r in some]
+                times = [self.area(r, where, 1) for r in some]
+                print(f"\n{mode}, {len(some)} {kind} edits, {where}, against uniform: to 25 % median {median(ratios[0]):.2f}, worst "
+                      f"{max(ratios[0]):.2f}; to 10 % median {median(ratios[1]):.2f}, worst {max(ratios[1]):.2f}; sum over work median "
+                      f"{median(areas):.2f}, worst {max(areas):.2f}; over time median {median(times):.2f}, worst {max(times):.2f}", end="")
+        print()
 
     def _print_flip(self):
         if not self.flip:
@@ -78,13 +121,16 @@ class Report:
 
     def write_csv(self, path):
         names = ["scene", "edit", "mode", "kind", "region", "local", "tiles", "pixels", "energy", "quality", "strict", "recall",
-                 "waste", "found", "scouts", "surveyed", "reveal", "frame", "restarts"]
+                 "followed", "waste", "found", "scouts", "surveyed", "reveal", "frame", "restarts"]
         with open(path, "w", newline="") as file:
             writer = csv.writer(file)
-            writer.writerow(names + ["t50_paths", "t90_paths", "t99_paths", "t50_seconds", "t90_seconds", "t99_seconds"])
+            writer.writerow(names + ["t50_paths", "t90_paths", "t99_paths", "t50_seconds", "t90_seconds", "t99_seconds"] +
+                            [f"{where}_{figure}_{unit}" for where in ("region", "frame") for figure in ("e25", "e10", "sum")
+                             for unit in ("paths", "seconds")])
             for row in self.rows:
                 seconds = [median(turn[i] for turn in row["seconds"]) for i in range(3)]
-                writer.writerow([row[name] for name in names] + row["paths"] + seconds)
+                shown = [value for where in row["shown"].values() for pair in (*where["until"], where["area"]) for value in pair]
+                writer.writerow([row[name] for name in names] + row["paths"] + seconds + shown)
 
     def draw(self, path):
         """One panel an edit: the share of the difference that is still old, against work; then the FLIP errors."""
@@ -99,9 +145,11 @@ class Report:
         for axis, key in zip(axes.flat, edits):
             for row in (r for r in self.rows if (r["scene"], r["edit"]) == key):
                 work = [0] + [paths / row["pixels"] for paths, _ in row["curve"]]
-                axis.step(work, [1] + [1 - share for _, share in row["curve"]], where="post", label=row["mode"])
+                lines = axis.step(work, [1] + [1 - share for _, share in row["curve"]], where="post", label=row["mode"])
+                error = [1] + [error for _, _, error in row["shown"]["region"]["curve"]]
+                axis.step(work, error, where="post", color=lines[0].get_color(), linestyle=":")
             axis.set_title(": ".join(key), fontsize=8)
-            axis.set_xlim(0, 1.5)
+            axis.set_xlim(0, 2.5)
         for axis, row in zip(axes.flat[len(edits):], self.flip):
             for mode, points in row["curves"].items():
                 axis.step(*zip(*points), where="post", label=mode)
@@ -109,6 +157,7 @@ class Report:
             axis.set_ylim(bottom=0)
         axes.flat[0].legend(fontsize=8)
         figure.supxlabel("work: frames of one sample")
-        figure.supylabel("share of the difference still to be refreshed; FLIP error of the changed region")
+        figure.supylabel("share of the difference still to be refreshed; dotted: error on display; FLIP error of the changed "
+                         "region")
         figure.tight_layout()
         figure.savefig(path, dpi=80)

@@ -1,11 +1,13 @@
 """Runs a scene in all modes, in turns, and makes one row of figures an edit and mode."""
 
 import re
+import resource
 from statistics import median
 
 import numpy as np
 import OpenEXR
 
+import edit_display
 import edit_metrics as metrics
 
 
@@ -33,8 +35,9 @@ def require_equal(scene, pictures):
                                  f"{int((a != b).any(axis=2).sum())} pixels")
 
 
-def row_of(scene, edit, mode, d, runs):
-    """The figures of one edit in one mode. `runs`: of all turns, the complete one first."""
+def row_of(scene, edit, mode, d, runs, pictures):
+    """The figures of one edit in one mode. `runs`: of all turns, the complete one first. `pictures`: before the edit, then
+    after 1, 2... all samples."""
     run = runs[0]
     energy = metrics.tile_energy(run.grid, d)
     region = float((d > 0).mean())
@@ -44,31 +47,53 @@ def row_of(scene, edit, mode, d, runs):
     row["seconds"] = [[seconds for _, seconds in metrics.times(r, energy)] for r in runs]
     row["paths"] = [paths for paths, _ in metrics.times(run, energy)]
     row["quality"], row["strict"] = metrics.quality(run, energy)
-    row["recall"], row["waste"] = metrics.found(run, energy)
+    row["recall"], row["waste"] = metrics.recall(run.found, energy), metrics.waste(run.found, energy)
+    row["followed"] = metrics.recall(run.foreseen, energy)
     row["found"], row["scouts"] = len(run.found), run.scout_paths
     row["surveyed"] = median(r.surveyed for r in runs)
     row["reveal"] = median(r.steps[0].seconds for r in runs)
     row["frame"] = median(metrics.frame(r)[1] for r in runs)
     order = np.cumsum([energy[step.fresh].sum() for step in run.steps]) / energy.sum()
     row["curve"] = [(step.paths, float(share)) for step, share in zip(run.steps, order)]
+    row["shown"] = edit_display.measure(run, pictures, d)
     return row
 
 
-def measure(recorder, scene, options):
+def record_steps(recorder, scene, mode, samples):
+    """The pictures after fewer than all samples: of each number of samples the list that read_pictures() gives."""
+    steps = []
+    for count in range(1, samples):
+        _, folder = recorder.play(scene, mode, count, f"{count}-samples")
+        steps.append(read_pictures(folder, len(scene.edits) + 1))
+    return steps
+
+
+def processor_seconds():
+    """Of the recordings so far."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+def measure(recorder, scene, options, processor):
+    """The rows of a scene. Adds to `processor` what the complete recordings cost, mode by mode."""
     modes = options.modes.split(",")
     runs, pictures = {mode: [] for mode in modes}, {}
     for turn in range(options.turns):
         for mode in modes:
+            before = processor_seconds()
             played, folder = recorder.play(scene, mode, options.few if turn else options.samples, turn)
             runs[mode].append(played)
             if turn == 0:
+                processor[mode] += processor_seconds() - before
                 pictures[mode] = read_pictures(folder, len(scene.edits) + 1)
     require_equal(scene, pictures)
     shown = pictures[modes[0]]
+    steps = record_steps(recorder, scene, modes[0], options.samples)
     rows = []
     for number, edit in enumerate(scene.edits, 1):
         d = metrics.difference(shown[number - 1], shown[number])
         if not d.any():
             raise SystemExit(f"{scene.name}, {edit['name']}: the edit does not show")
-        rows += [row_of(scene, edit["name"], mode, d, [turn[number] for turn in runs[mode]]) for mode in modes]
+        seen = [shown[number - 1], *(pictures[number] for pictures in steps), shown[number]]
+        rows += [row_of(scene, edit["name"], mode, d, [turn[number] for turn in runs[mode]], seen) for mode in modes]
     return rows

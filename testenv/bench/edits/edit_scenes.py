@@ -12,7 +12,7 @@ class Scene:
     name: str
     stage: Path
     edits: list
-    size: tuple = (320, 180)
+    aspect: float = 9 / 16  # height / width
 
 
 def over(path, *opinions):
@@ -88,7 +88,7 @@ def lights():
         edit("distant turned", "Sun", "float3 xformOp:rotateXYZ = (-45, 35, 0)"),
         edit("distant off", "Sun", 'token visibility = "invisible"'),
         edit("dome brighter", "Sky", light("float intensity", 0.16)),
-    ], size=(320, 120))
+    ], aspect=3 / 8)
 
 
 SIDE = 50  # instances in a row of the field

@@ -35,6 +35,7 @@ class Step:
     seconds: float  # since the edit
     sampled: list  # tiles that got their first sample, in order
     fresh: list  # tiles that no longer show the picture before the edit
+    shows: list  # (tile, samples in the mean on display) where that is new
 
 
 @dataclass
@@ -45,7 +46,8 @@ class Run:
     start: float
     scout_paths: int = 0
     surveyed: float = 0.0  # seconds since the edit until the tiles were in order for the first time
-    found: dict = field(default_factory=dict)  # tile -> latest priority
+    found: dict = field(default_factory=dict)  # tile -> latest priority, as surveyed
+    foreseen: set = field(default_factory=set)  # tiles that had been discovered, by whatever, when their turn came
     steps: list = field(default_factory=list)
     restarts: int = 0
 
@@ -65,8 +67,8 @@ class _Reader:
             self.paths = 0
         else:  # not converged: the edit comes in pieces, and what was refreshed is out of date again
             run = self.runs[-1]
-            run.grid, run.restarts = grid, run.restarts + 1
-            run.steps = [Step(step.paths, step.seconds, [], []) for step in run.steps]
+            run.grid, run.restarts, run.foreseen = grid, run.restarts + 1, set()
+            run.steps = [Step(step.paths, step.seconds, [], [], []) for step in run.steps]
         self.done, self.shown = np.zeros(grid.count, int), np.zeros(grid.count, bool)
 
     def survey(self, line):
@@ -80,19 +82,23 @@ class _Reader:
 
     def batch(self, line):
         run = self.runs[-1]
-        sampled, fresh = [], []
-        for x, y, _, _, first, count, shown in line["tiles"]:
+        sampled, fresh, shows = [], [], []
+        for x, y, _, _, first, count, shown, foreseen in line["tiles"]:
             tile = run.grid.at(x, y)
             if first != self.done[tile]:
                 raise SystemExit(f"tile {tile} got sample {first} after {self.done[tile]} samples")
             if first == 0:
                 sampled.append(tile)
+                if foreseen:
+                    run.foreseen.add(tile)
+            if shown:
+                shows.append((tile, first + count))
             if shown and not self.shown[tile]:
                 fresh.append(tile)
             self.done[tile] = first + count
             self.shown[tile] |= shown > 0
         self.paths += line["paths"]
-        run.steps.append(Step(self.paths, line["seconds"] - run.start, sampled, fresh))
+        run.steps.append(Step(self.paths, line["seconds"] - run.start, sampled, fresh, shows))
 
 
 def read_log(path, samples, pictures):

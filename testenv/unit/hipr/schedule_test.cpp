@@ -142,6 +142,19 @@ TEST(TileSchedule, DiscoveredTilesComeFirstInTheirOrder) {
     EXPECT_EQ(schedule.grid().at(work[2].x, work[2].y), 5u);
 }
 
+TEST(TileSchedule, TellsWhetherATileHadBeenDiscoveredWhenItsTurnCame) {
+    TileSchedule schedule = edited(4);
+    schedule.setFloor(0.f);
+    schedule.discover(5, 1.f);
+    schedule.sort(false);
+    step(schedule, 256, 4, [](uint32_t) { return 0.f; });
+    EXPECT_TRUE(schedule.tiles()[5].foreseen) << "though nothing changed in it";
+    step(schedule, 256, 4, [](uint32_t) { return 1.f; });
+    EXPECT_EQ(schedule.tiles()[0].samples, 1u);
+    EXPECT_FALSE(schedule.tiles()[0].foreseen) << "its own sample told";
+    EXPECT_GT(schedule.tiles()[0].priority, 0.f);
+}
+
 TEST(TileSchedule, EveryTileIsLookedAtBeforeAnyGetsMore) {
     TileSchedule schedule = edited(8);
     schedule.discover(5, 1.f);
