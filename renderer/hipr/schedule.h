@@ -17,7 +17,9 @@ struct TileState {
     uint32_t shown = 0;    ///< samples in the mean on display, of whatever scene; 0: nothing was ever shown
     bool measured = false; ///< the priority is measured, no estimate
     bool foreseen = false; ///< was discovered when its first sample was handed out
-    bool keepsOld = false; ///< on display is the older picture, which the new samples have not changed so far
+    float change = 0.f;    ///< of the first samples since the picture on display, edit by edit, summed up
+    float noise = 0.f;     ///< how far the last first sample was from the mean on display
+    bool keepsOld = false; ///< on display is the older picture, which is the better one so far
 };
 
 /// Brings a list of tiles to more and more samples, in order, pass after pass. The first pass takes one
@@ -56,9 +58,10 @@ private:
 ///   3. Discovered tiles get the rest of their samples, then all others.
 /// Without discovered tiles this is uniform rendering.
 ///
-/// A tile whose first sample differs in no pixel from the same sample of the picture on display shows nothing
-/// of the edit: it keeps that picture on display until it has as many new samples, so that what an edit does
-/// not touch does not turn noisy.
+/// A tile of which the edit changes nothing, or less than shows through the noise of the new samples, keeps
+/// the picture on display, so that what an edit hardly touches does not turn noisy. At the latest the new
+/// samples show when there are as many. Changes are those of first samples, which have the noise of the ones
+/// they are compared with; changes of several edits add up until the tile is refreshed.
 ///
 /// Whatever the order, every tile gets its samples 0, 1, 2... once: the picture at N samples does not depend
 /// on it.
@@ -75,9 +78,10 @@ public:
     /// Adds to what is believed of the edit: a tile that was not measured keeps its greatest priority. Takes
     /// effect with the next sort() or advance().
     void discover(uint32_t tile, float priority);
-    /// What is known of a tile: how much its first sample changes the picture. Between next() and advance()
-    /// of the work that holds it.
-    void measured(uint32_t tile, float change);
+    /// What is known of a tile: how much its first sample differs from the same sample of the picture on
+    /// display, and (`noise`) from the mean on display; both in radiance. Between next() and advance() of the
+    /// work that holds it.
+    void measured(uint32_t tile, float change, float noise);
     /// Orders the tiles. `everything`: the undiscovered ones go behind the discovered ones in the same list,
     /// because the edit shows nearly everywhere.
     void sort(bool everything);
@@ -106,6 +110,7 @@ public:
 
 private:
     void appendFloor(uint32_t maxPaths, uint32_t samples);
+    bool keepsOld(const TileState& state) const;
 
     TileGrid _grid;
     std::vector<TileState> _states;

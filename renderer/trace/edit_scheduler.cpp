@@ -132,8 +132,9 @@ void EditScheduler::measured(const std::vector<gpu::TileWork>& tiles) {
         if (tiles[i].firstSample > 0) continue;
         const uint32_t tile = _schedule.grid().at(tiles[i].x, tiles[i].y);
         const float pixels = float(tiles[i].width * tiles[i].height);
-        const float change = float(_changes[i].change) / (pixels * StepsPerRadiance); // in mean radiances
-        _schedule.measured(tile, change * radiance);
+        const float steps = pixels * StepsPerRadiance;
+        const float change = float(_changes[i].change) / steps; // in mean radiances
+        _schedule.measured(tile, change * radiance, float(_changes[i].noise) / steps * radiance);
         if (change < LeastChange) continue;
         forNeighbours(_schedule.grid(), tile, [&](uint32_t neighbour) {
             _schedule.discover(neighbour, NeighbourShare * change * radiance);

@@ -15,6 +15,7 @@ struct TileWork {
     uint flags;              // TILE_*
 };
 HIPR_CONST uint TILE_SAVES_OLD = 1u; // the mean on display goes to TraceRecord::oldPicture before sample 0 replaces it
+HIPR_CONST uint TILE_KEEPS_OLD = 2u; // the mean on display is in TraceRecord::oldPicture already
 
 // Pinhole or orthographic, from matrices. The ray through NDC (x, y) has
 //   direction = normalize(direction + x * directionX + y * directionY),
@@ -93,7 +94,8 @@ struct OldPixel {
 // How the first new samples of a work item differ from the picture on display: sums over its pixels, in units of
 // 1 / TraceRecord::changeScale, whole numbers so that no order of adding shows.
 struct TileChange {
-    uint change;             // of the mean over the channels of |new - old|
+    uint change;             // of the mean over the channels of |new - old|, old being the same sample
+    uint noise;              // of the same with the mean on display for old, where a flag of the work item tells where it is
 };
 HIPR_CONST float MAX_PIXEL_CHANGE = 65535.0f; // in the same units; 2^15 pixels fit
 
