@@ -16,6 +16,7 @@ void addTo(inout vec3 sum, inout vec3 error, vec3 value) {
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FirstSampleRef { vec3 v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer OldPictureRef { OldPixel v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer SeenRef { SeenPoint v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TileChangeRef { TileChange v[]; };
 
 // Steps of gpu::TileChange: the mean over the channels of |a - b|.
@@ -62,6 +63,8 @@ void main() {
         if (i == 0u && tile.firstSample == 0u) {
             replaceFirstSample(trace, pixel, radiance);
             retire(trace, tile.flags, pixel, radiance);
+            if (trace.seen != 0ul)
+                SeenRef(trace.seen).v[pixel] = PathSeenRef(trace.pathSeen).v[tile.firstSlot + local * tile.sampleCount];
         }
         addTo(color, sum.colorError, radiance);
         addTo(sum.albedo, sum.albedoError, path.albedo);

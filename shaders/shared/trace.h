@@ -46,6 +46,13 @@ struct VisibilityRecord {
     uint objectInstance;     // index into InstancesDesc::transforms
 };
 
+// What a pixel on display shows: the point of a surface under the pixel's centre, in world space, and how it looks from
+// elsewhere (`look`, see reproject.h).
+struct SeenPoint {
+    vec3 point;
+    uint look;
+};
+
 // One path between two kernels.
 struct PathState {
     vec3 throughput;
@@ -155,6 +162,8 @@ struct TraceRecord {
     uint64_t visibility;     // VisibilityRecord[]
     uint64_t oldPicture;     // OldPixel[]
     uint64_t firstSamples;   // vec3[]: radiance of each pixel's sample 0 in the picture on display
+    uint64_t seen;           // SeenPoint[]: what each pixel on display shows, as its sample 0 saw it; or 0
+    uint64_t pathSeen;       // SeenPoint[] by path: what sample 0 sees
     uint64_t scoutResults;   // ScoutResult[]
     uint64_t tileChanges;    // TileChange[]: one a work item
     uint64_t aovs;           // AovTarget[aovCount]
