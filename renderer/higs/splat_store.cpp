@@ -129,9 +129,9 @@ Packed pack(const Splats& splats, size_t count) {
     std::vector<uint8_t> drawable;
     Packed packed = survey(splats, count, &drawable);
     packed.shapes.resize(count);
-    const size_t halves = 3 * shCoefficients(splats.degree());
+    const size_t halves = 3 * shCoefficients(splats.degree()), stride = (halves + 3) / 6 * 6;
     const bool coloured = count > 0 && splats.coefficients(0);
-    packed.coefficients.resize(coloured ? count * halves : 0);
+    packed.coefficients.resize(coloured ? count * stride : 0);
     tbb::parallel_for(tbb::blocked_range<size_t>(0, count, 4096), [&](const auto& range) {
         for (size_t i = range.begin(); i != range.end(); ++i) {
             if (!drawable[i]) continue; // zeros: opacity 0
@@ -139,7 +139,7 @@ Packed pack(const Splats& splats, size_t count) {
                 packShape(splats.orientation(i), splats.scale(i) / packed.scaleUnit, splats.opacity(i));
             const float* c = coloured ? &splats.coefficients(i)->x : nullptr;
             for (size_t k = 0; c && k < halves; ++k)
-                packed.coefficients[i * halves + k] = glm::packHalf1x16(c[k]);
+                packed.coefficients[i * stride + k] = glm::packHalf1x16(c[k]);
         }
     });
     return packed;

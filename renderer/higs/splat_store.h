@@ -17,8 +17,8 @@ struct SplatBounds {
 
 /// What the kernels read of a cloud. A splat takes 28 + 6 * (degree + 1)^2 bytes, 124 at degree 3: its
 /// position in float, a unit quaternion in 16-bit fixed point, scales in half precision relative to the
-/// largest one, opacity in 16-bit fixed point, coefficients in half precision. The arrays lie in buffers of
-/// their own and are read through device addresses, so that no binding limit applies.
+/// largest one, opacity in 16-bit fixed point, an even number of coefficients in half precision. The arrays
+/// lie in buffers of their own and are read through device addresses, so that no binding limit applies.
 ///
 /// Splats that cannot be drawn (a component that is not finite, a negative scale, an orientation of length 0,
 /// coefficients beyond half precision) are left out, as are those whose opacity stays below 1/255; opacities

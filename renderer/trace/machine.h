@@ -6,7 +6,6 @@
 #include <string>
 
 #include "renderer/trace/path_tracer.h"
-#include "renderer/trace/reprojection.h"
 #include "renderer/vulkan/device.h"
 
 namespace hipr {
@@ -15,7 +14,6 @@ struct Machine {
     std::string key; ///< what it was made for
     std::unique_ptr<Device> device;
     PathTracer tracer;
-    std::unique_ptr<Reprojection> reprojection = {}; ///< once a mode needed it
 };
 
 /// Puts a machine where the next renderer finds it, while a MachineReuse lives.

@@ -14,13 +14,6 @@
 #include "language.h"
 #ifdef __cplusplus
 #include <cmath>
-#define HIPR_PRECISE
-#define HIPR_OUT(type) type&
-#define HIPR_INLINE inline
-#else
-#define HIPR_PRECISE precise
-#define HIPR_OUT(type) out type
-#define HIPR_INLINE
 #endif
 HIPR_SHARED_BEGIN
 #ifdef __cplusplus

@@ -1,0 +1,131 @@
+#include "renderer/higs/splat_frame.h"
+
+#include <cmath>
+
+namespace hipr {
+namespace {
+
+glm::dvec4 row(const glm::dmat4& m, int r) {
+    return {m[0][r], m[1][r], m[2][r], m[3][r]};
+}
+
+glm::dmat4 extended(const glm::mat4x3& m) {
+    glm::dmat4 r(1.0);
+    for (int c = 0; c < 4; ++c)
+        r[c] = glm::dvec4(glm::dvec3(m[c]), c == 3 ? 1.0 : 0.0);
+    return r;
+}
+
+bool finite(const glm::dmat4& m) {
+    for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 4; ++r)
+            if (!std::isfinite(m[c][r])) return false;
+    return true;
+}
+
+} // namespace
+
+glm::uvec2 binSize(SplatMode mode) {
+    switch (mode) {
+    case SplatMode::Flat16Aabb:
+    case SplatMode::Flat16Exact:
+        return {16, 16};
+    case SplatMode::Flat8Exact:
+        return {8, 8};
+    default:
+        return {gpu::SPLAT_MACRO_WIDTH, gpu::SPLAT_MACRO_HEIGHT};
+    }
+}
+
+gpu::SplatPlacement splatPlacement(const SplatInstance& instance, const SplatView& view, uint32_t first) {
+    const gpu::CameraRecord& camera = view.camera;
+    const glm::dmat4 toWorld = extended(instance.objectToWorld), toObject = glm::inverse(toWorld);
+    const glm::dmat4 clip = glm::dmat4(camera.worldToClip) * toWorld;
+    const glm::dvec3 forward(camera.forward);
+
+    gpu::SplatPlacement p{};
+    p.arrays = instance.store->arrays();
+    p.pixelX = 0.5 * view.width * (row(clip, 0) + row(clip, 3));
+    p.pixelY = 0.5 * view.height * (row(clip, 1) + row(clip, 3));
+    p.clipW = row(clip, 3);
+    p.depth = glm::dvec4(forward, -glm::dot(forward, glm::dvec3(camera.origin))) * toWorld;
+    p.eye = toObject * glm::dvec4(glm::dvec3(camera.origin), 1.0);
+    p.direction = toObject * glm::dvec4(glm::dvec3(camera.direction), 0.0);
+    p.toWorldX = instance.objectToWorld[0];
+    p.toWorldY = instance.objectToWorld[1];
+    p.toWorldZ = instance.objectToWorld[2];
+    p.first = first;
+    p.primId = instance.primId;
+    p.instanceId = instance.instanceId;
+    const bool usable = finite(toWorld) && finite(toObject);
+    p.flags = (instance.visible && usable ? 0u : gpu::SPLATS_HIDDEN) |
+              (instance.store->projection() == SplatProjection::Tangential ? gpu::SPLATS_TANGENTIAL : 0u);
+    return p;
+}
+
+SplatBlocks splatBlocks(const std::vector<SplatInstance>& instances) {
+    SplatBlocks all;
+    uint64_t splats = 0;
+    for (const SplatInstance& instance : instances) {
+        all.firstBlock.push_back(uint32_t(all.blocks.size()));
+        all.firstSplat.push_back(uint32_t(splats));
+        const size_t size = instance.store->size();
+        for (size_t first = 0; first < size; first += gpu::SPLAT_BLOCK)
+            all.blocks.push_back({uint32_t(all.firstBlock.size() - 1), uint32_t(first)});
+        splats += size;
+    }
+    if (splats >= gpu::NO_SPLAT) throw OutOfMemory("there are more than 4294967294 splats");
+    all.firstBlock.push_back(uint32_t(all.blocks.size()));
+    all.firstSplat.push_back(uint32_t(splats));
+    return all;
+}
+
+uint64_t SplatBuffers::histogramBytes(const gpu::SplatFrame& f) const {
+    return uint64_t(f.tileColumns) * f.tileRows * sizeof(uint32_t) * (_lanes ? gpu::SPLAT_CHUNKS : 1);
+}
+
+void SplatBuffers::reserveLists(uint64_t pairCount, uint64_t batchCount) {
+    for (GrowingBuffer& side : pairs)
+        side.reserve(_device, pairCount * sizeof(gpu::SplatPair));
+    masks.reserve(_device, pairCount * sizeof(uint32_t));
+    _pairCapacity = std::max(_pairCapacity, pairCount);
+    _batchCapacity = std::max(_batchCapacity, batchCount);
+}
+
+void SplatBuffers::prepare(gpu::SplatFrame& f, bool withRays) {
+    const uint64_t tileCount = uint64_t(f.tileColumns) * f.tileRows;
+    const uint64_t pixelCount = uint64_t(f.width) * f.height;
+    placements.reserve(_device, f.placementCount * sizeof(gpu::SplatPlacement));
+    splats.reserve(_device, f.splatCount * uint64_t(_half ? sizeof(gpu::ProjectedSplatHalf)
+                                                          : sizeof(gpu::ProjectedSplat)));
+    if (withRays) rays.reserve(_device, f.splatCount * sizeof(gpu::SplatRay));
+    histogram.reserve(_device, histogramBytes(f));
+    tiles.reserve(_device, tileCount * sizeof(gpu::SplatTile));
+    tileMask.reserve(_device, tileCount * sizeof(uint32_t));
+    pixels.reserve(_device, pixelCount * sizeof(gpu::SplatPixel));
+    state.reserve(_device, sizeof(gpu::SplatState));
+    camera.reserve(_device, sizeof(gpu::CameraRecord));
+    frame.reserve(_device, sizeof(gpu::SplatFrame));
+    if (f.flags & gpu::FRAME_PROFILING) blends.reserve(_device, tileCount * sizeof(glm::uvec2));
+    if (_pairCapacity == 0) // a guess; frames that need more make it grow
+        reserveLists(f.splatCount / 2 + 32 * tileCount + 4096, f.splatCount / 1024 + tileCount + 64);
+
+    f.placements = placements.address();
+    f.blocks = blocks.address();
+    f.splats = splats.address();
+    f.rays = withRays ? rays.address() : 0;
+    f.histogram = histogram.address();
+    f.tiles = tiles.address();
+    f.tileMask = tileMask.address();
+    f.pairs[0] = pairs[0].address();
+    f.pairs[1] = pairs[1].address();
+    f.masks = masks.address();
+    f.pixels = pixels.address();
+    f.state = state.address();
+    f.camera = camera.address();
+    f.blends = blends.buffer() ? blends.address() : 0;
+    f.pairCapacity = uint32_t(std::min<uint64_t>(_pairCapacity, UINT32_MAX));
+    f.batchCapacity = uint32_t(std::min<uint64_t>(_batchCapacity, UINT32_MAX));
+}
+
+} // namespace hipr

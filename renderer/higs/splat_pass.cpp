@@ -1,0 +1,316 @@
+#include "renderer/higs/splat_pass.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <functional>
+
+#include "renderer/higs/splat_stages.h"
+
+namespace hipr {
+namespace {
+
+/// What has to be done again; each includes those before.
+enum Work : int {
+    Nothing,
+    Raster,     ///< lists are as they were
+    Placements, ///< some instances moved
+    Everything,
+};
+
+bool useLanes(const Device& device, SplatKernels kernels) {
+    return kernels == SplatKernels::Automatic ? device.info().cpu : kernels == SplatKernels::Lanes;
+}
+
+bool sameStores(const std::vector<SplatInstance>& a, const std::vector<SplatInstance>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const SplatInstance& x, const SplatInstance& y) { return x.store == y.store; });
+}
+
+bool same(const SplatInstance& a, const SplatInstance& b) {
+    return a.objectToWorld == b.objectToWorld && a.primId == b.primId && a.instanceId == b.instanceId &&
+           a.visible == b.visible;
+}
+
+bool same(const SplatView& a, const SplatView& b) {
+    return std::memcmp(&a.camera, &b.camera, sizeof(a.camera)) == 0 && a.width == b.width &&
+           a.height == b.height && a.cropX == b.cropX && a.cropY == b.cropY && a.cropWidth == b.cropWidth &&
+           a.cropHeight == b.cropHeight && a.antialiased == b.antialiased;
+}
+
+/// Lists are sorted by one measure: the most demanding that any instance asks for.
+SplatSorting sortingOf(const std::vector<SplatInstance>& instances) {
+    SplatSorting sorting = SplatSorting::ZDepth;
+    for (const SplatInstance& instance : instances)
+        sorting = std::max(sorting, instance.store->sorting());
+    return sorting;
+}
+
+gpu::SplatFrame frameRecord(const SplatView& view, SplatMode mode, bool profiling) {
+    gpu::SplatFrame f{};
+    const glm::uvec2 tile = binSize(mode), size(view.width, view.height);
+    f.width = view.width;
+    f.height = view.height;
+    f.cropLo = glm::min(glm::uvec2(view.cropX, view.cropY), size);
+    f.cropHi = {view.cropWidth ? std::min(view.cropX + view.cropWidth, view.width) : view.width,
+                view.cropHeight ? std::min(view.cropY + view.cropHeight, view.height) : view.height};
+    f.tileWidth = tile.x;
+    f.tileHeight = tile.y;
+    f.tileColumns = (view.width + tile.x - 1) / tile.x;
+    f.tileRows = (view.height + tile.y - 1) / tile.y;
+    f.nearDepth = view.camera.nearDepth;
+    f.farDepth = view.camera.farDepth;
+    const bool parallel = view.camera.directionX == glm::vec3(0) && view.camera.directionY == glm::vec3(0);
+    f.flags = (view.antialiased ? gpu::FRAME_ANTIALIASED : 0u) | (profiling ? gpu::FRAME_PROFILING : 0u) |
+              (parallel ? gpu::FRAME_PARALLEL : 0u);
+    return f;
+}
+
+} // namespace
+
+const char* splatModeName(SplatMode mode) {
+    switch (mode) {
+    case SplatMode::Flat16Aabb:
+        return "flat16-aabb";
+    case SplatMode::Flat16Exact:
+        return "flat16-exact";
+    case SplatMode::Flat8Exact:
+        return "flat8-exact";
+    case SplatMode::Higs8:
+        return "higs8";
+    case SplatMode::Higs8Carry:
+        return "higs8-carry";
+    case SplatMode::Automatic:
+        break;
+    }
+    return "automatic";
+}
+
+struct SplatPass::Impl {
+    Impl(Device& device, const SplatPassOptions& options)
+        : device(device), stages(device, useLanes(device, options.kernels), options.halfRecords) {}
+
+    Device& device;
+    SplatStages stages;
+    SplatView view;
+    std::vector<SplatInstance> instances;
+    SplatBlocks blocks;
+    SplatMode wanted = SplatMode::Automatic;
+    VkDeviceAddress depthLimit = 0;
+    bool profiling = false;
+
+    int work = Everything;       ///< Work
+    bool listsComplete = false;  ///< the lists are those of all tiles
+    std::vector<uint32_t> moved; ///< indices of instances, for Placements
+    SplatStatistics statistics;
+    std::vector<uint32_t> drawn;
+
+    /// Commands that belong together, and are timed together.
+    struct Step {
+        const char* name;
+        std::function<void(VkCommandBuffer)> record;
+        bool mayStop = false; ///< a frame may be cancelled before it
+    };
+
+    bool doing(int what) const { return work == what; }
+    void need(int what) { work = std::max(work, what); }
+    SplatMode mode() const { return wanted == SplatMode::Automatic ? SplatMode::Higs8Carry : wanted; }
+    void setUp();
+    void project(VkCommandBuffer cmd) const;
+    std::vector<Step> steps(bool again) const;
+    bool run(const std::vector<Step>& steps, const std::atomic<bool>* cancel);
+    bool attempts(const std::atomic<bool>* cancel, gpu::SplatState* state);
+    bool render(const std::atomic<bool>* cancel);
+    void report(const gpu::SplatState& state);
+};
+
+void SplatPass::Impl::setUp() {
+    std::vector<gpu::SplatPlacement> placements;
+    for (size_t i = 0; i < instances.size(); ++i)
+        placements.push_back(splatPlacement(instances[i], view, blocks.firstSplat[i]));
+    gpu::SplatFrame frame = frameRecord(view, mode(), profiling);
+    frame.placementCount = uint32_t(instances.size());
+    frame.splatCount = blocks.firstSplat.empty() ? 0 : blocks.firstSplat.back();
+    frame.sorting = uint32_t(sortingOf(instances));
+    frame.depthLimit = depthLimit;
+    stages.setUp(mode(), frame, placements, blocks.blocks, view.camera);
+}
+
+void SplatPass::Impl::project(VkCommandBuffer cmd) const {
+    stages.clear(cmd, !doing(Placements));
+    computeBarrier(cmd);
+    if (doing(Everything)) stages.project(cmd, 0, uint32_t(blocks.blocks.size()));
+    if (!doing(Placements)) return;
+    const auto each = [&](auto stage) {
+        for (const uint32_t i : moved)
+            (stages.*stage)(cmd, blocks.firstBlock[i], blocks.firstBlock[i + 1]);
+    };
+    each(&SplatStages::touch); // where they were
+    computeBarrier(cmd);
+    each(&SplatStages::project);
+    computeBarrier(cmd);
+    each(&SplatStages::touch); // where they are
+}
+
+/// `again`: the lists had no room; splats are projected and tiles marked already.
+std::vector<SplatPass::Impl::Step> SplatPass::Impl::steps(bool again) const {
+    std::vector<Step> all;
+    const auto add = [&](const char* name, auto stage) {
+        all.push_back({name, [this, stage](VkCommandBuffer cmd) { (stages.*stage)(cmd); }});
+    };
+    if (again)
+        add("project", &SplatStages::clearState);
+    else
+        all.push_back({"project", [this](VkCommandBuffer cmd) { project(cmd); }});
+    if (!doing(Raster) || !listsComplete) {
+        add("count", &SplatStages::count);
+        add("scan", &SplatStages::scan);
+        add("fill", &SplatStages::fill);
+        add("sort", &SplatStages::sort);
+        add("masks", &SplatStages::masks);
+    }
+    constexpr uint32_t Band = 16;
+    for (uint32_t row = 0; row < stages.pixelRows(); row += Band) {
+        const uint32_t rows = std::min(Band, stages.pixelRows() - row);
+        all.push_back({"raster", [=](VkCommandBuffer cmd) { stages.raster(cmd, row, rows); }, true});
+    }
+    return all;
+}
+
+bool SplatPass::Impl::run(const std::vector<Step>& steps, const std::atomic<bool>* cancel) {
+    for (size_t begin = 0, end; begin < steps.size(); begin = end) {
+        if (cancel && *cancel) return false;
+        end = begin + 1;
+        while (end < steps.size() && !profiling && !(cancel && steps[end].mayStop))
+            ++end;
+        const auto start = std::chrono::steady_clock::now();
+        device.run([&](VkCommandBuffer cmd) {
+            for (size_t i = begin; i < end; ++i) {
+                const bool sameStage = i != begin && std::strcmp(steps[i].name, steps[i - 1].name) == 0;
+                if (!sameStage) computeBarrier(cmd);
+                steps[i].record(cmd);
+            }
+        });
+        const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+        statistics.totalMs += time.count();
+        if (!profiling) continue;
+        auto& rows = statistics.stages;
+        if (rows.empty() || std::strcmp(rows.back().name, steps[begin].name) != 0)
+            rows.push_back({steps[begin].name, 0});
+        rows.back().ms += time.count();
+    }
+    return true;
+}
+
+/// Renders until the lists have room.
+bool SplatPass::Impl::attempts(const std::atomic<bool>* cancel, gpu::SplatState* state) {
+    setUp();
+    while (true) {
+        if (!run(steps(statistics.attempts > 0), cancel)) return false;
+        ++statistics.attempts;
+        *state = stages.state();
+        statistics.visible += state->visible;
+        if (!state->overflow) return true;
+        stages.makeRoom(*state);
+    }
+}
+
+void SplatPass::Impl::report(const gpu::SplatState& state) {
+    const gpu::SplatFrame& frame = stages.frame();
+    statistics.splats = frame.splatCount;
+    statistics.pairs = state.pairs;
+    statistics.largestList = state.largestList;
+    statistics.batches = state.batches;
+    drawn.resize(size_t(frame.tileColumns) * frame.tileRows);
+    device.download(stages.buffers().tileMask.buffer(), drawn.data(), drawn.size() * sizeof(uint32_t));
+}
+
+bool SplatPass::Impl::render(const std::atomic<bool>* cancel) {
+    statistics = {};
+    if (doing(Nothing) || view.width == 0 || view.height == 0) {
+        drawn.assign(drawn.size(), 0);
+        return true;
+    }
+    gpu::SplatState state{};
+    bool done = false;
+    try {
+        done = attempts(cancel, &state);
+    } catch (...) {
+        work = Everything;
+        throw;
+    }
+    if (!done) { // which tiles were touched is not known any more
+        work = Everything;
+        return false;
+    }
+    report(state);
+    listsComplete = !doing(Placements);
+    work = Nothing;
+    moved.clear();
+    return true;
+}
+
+SplatPass::SplatPass(Device& device, const SplatPassOptions& options)
+    : _impl(std::make_unique<Impl>(device, options)) {}
+SplatPass::~SplatPass() = default;
+
+void SplatPass::setView(const SplatView& view) {
+    if (same(view, _impl->view)) return;
+    _impl->view = view;
+    _impl->need(Everything);
+}
+
+void SplatPass::setInstances(std::vector<SplatInstance> instances) {
+    Impl& d = *_impl;
+    if (!sameStores(instances, d.instances)) {
+        d.blocks = splatBlocks(instances);
+        d.need(Everything);
+    } else
+        for (uint32_t i = 0; i < instances.size(); ++i) {
+            if (same(instances[i], d.instances[i])) continue;
+            d.moved.push_back(i);
+            d.need(Placements);
+        }
+    d.instances = std::move(instances);
+}
+
+void SplatPass::setMode(SplatMode mode) {
+    Impl& d = *_impl;
+    const SplatMode before = d.mode();
+    d.wanted = mode;
+    if (d.mode() != before) d.need(Everything);
+}
+
+SplatMode SplatPass::mode() const {
+    return _impl->mode();
+}
+
+void SplatPass::setDepthLimit(VkDeviceAddress cameraDepths) {
+    Impl& d = *_impl;
+    if (cameraDepths == 0 && d.depthLimit == 0) return;
+    d.depthLimit = cameraDepths;
+    d.need(d.doing(Placements) ? Everything : Raster);
+}
+
+void SplatPass::setProfiling(bool on) {
+    _impl->profiling = on;
+}
+
+bool SplatPass::render(const std::atomic<bool>* cancel) {
+    return _impl->render(cancel);
+}
+
+const Buffer& SplatPass::pixels() const {
+    return _impl->stages.buffers().pixels.buffer();
+}
+const std::vector<uint32_t>& SplatPass::drawnTiles() const {
+    return _impl->drawn;
+}
+uint32_t SplatPass::tileColumns() const {
+    return _impl->stages.frame().tileColumns;
+}
+const SplatStatistics& SplatPass::statistics() const {
+    return _impl->statistics;
+}
+
+} // namespace hipr

@@ -1,0 +1,109 @@
+// Sorts each batch of a list by key, then by splat.
+//
+// LANES: one invocation a batch, by itself: a radix sort, least significant digit first, over as many bits as the keys of
+// the batch differ in. It keeps the order of equal keys, in which `fill` has put the splats. Otherwise a workgroup sorts
+// the batch in shared memory by K. Batcher's bitonic network (AFIPS 1968).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "higs/frame.glsl"
+
+#ifdef LANES
+layout(local_size_x = 8) in;
+
+const uint DIGIT_BITS = 8u, DIGITS = 1u << DIGIT_BITS;
+
+// Of the batch's keys above the least: as many bits as differ.
+uint keyBits(PairRef pairs, uint first, uint count, out uint least) {
+    least = 0xffffffffu;
+    uint most = 0u;
+    for (uint i = 0u; i < count; ++i) {
+        const uint key = pairs.v[first + i].key;
+        least = min(least, key);
+        most = max(most, key);
+    }
+    return count > 1u ? uint(findMSB(most - least) + 1) : 0u;
+}
+
+void sortDigit(PairRef from, PairRef to, uint first, uint count, uint least, uint shift) {
+    uint places[DIGITS];
+    for (uint d = 0u; d < DIGITS; ++d)
+        places[d] = 0u;
+    for (uint i = 0u; i < count; ++i)
+        places[((from.v[first + i].key - least) >> shift) & (DIGITS - 1u)] += 1u;
+    uint sum = 0u;
+    for (uint d = 0u; d < DIGITS; ++d) {
+        const uint n = places[d];
+        places[d] = sum;
+        sum += n;
+    }
+    for (uint i = 0u; i < count; ++i) {
+        const SplatPair pair = from.v[first + i];
+        const uint d = ((pair.key - least) >> shift) & (DIGITS - 1u);
+        const uint place = places[d];
+        places[d] = place + 1u;
+        to.v[first + place] = pair;
+    }
+}
+
+void main() {
+    const SplatFrame frame = FrameRef(push.frame).v;
+    const uint batch = invocationIndex(gl_WorkGroupSize.x);
+    if (batch >= StateRef(frame.state).v.batches) return;
+    const SplatTile tile = TileRef(frame.tiles).v[tileOfBatch(frame, batch)];
+    const uint skipped = (batch - tile.firstBatch) * SPLAT_BATCH;
+    const uint first = tile.first + skipped, count = min(tile.count - skipped, SPLAT_BATCH);
+    uint least;
+    const uint bits = keyBits(PairRef(frame.pairs[0]), first, count, least);
+    uint side = 0u;
+    for (uint shift = 0u; shift < bits; shift += DIGIT_BITS) {
+        sortDigit(PairRef(frame.pairs[side]), PairRef(frame.pairs[1u - side]), first, count, least, shift);
+        side = 1u - side;
+    }
+    for (uint i = 0u; i < count && side != 0u; ++i)
+        PairRef(frame.pairs[0]).v[first + i] = PairRef(frame.pairs[1]).v[first + i];
+}
+#else
+layout(local_size_x = 256) in;
+
+shared SplatPair batchPairs[SPLAT_BATCH];
+
+bool before(SplatPair a, SplatPair b) { return a.key < b.key || (a.key == b.key && a.splat < b.splat); }
+
+void compareExchange(uint low, uint high) {
+    const SplatPair a = batchPairs[low], b = batchPairs[high];
+    if (!before(b, a)) return;
+    batchPairs[low] = b;
+    batchPairs[high] = a;
+}
+
+void main() {
+    const SplatFrame frame = FrameRef(push.frame).v;
+    const uint batch = workgroupIndex();
+    const SplatTile tile = TileRef(frame.tiles).v[tileOfBatch(frame, batch)];
+    const uint skipped = (batch - tile.firstBatch) * SPLAT_BATCH;
+    const uint first = tile.first + skipped, count = min(tile.count - skipped, SPLAT_BATCH);
+    PairRef pairs = PairRef(frame.pairs[0]);
+    for (uint i = gl_LocalInvocationIndex; i < SPLAT_BATCH; i += gl_WorkGroupSize.x) {
+        batchPairs[i] = SplatPair(0xffffffffu, 0xffffffffu);
+        if (i < count) batchPairs[i] = pairs.v[first + i];
+    }
+    barrier();
+    for (uint run = 2u; run <= SPLAT_BATCH; run *= 2u) {
+        // The first step mirrors the second half of a run, so that all others compare in the same direction.
+        for (uint i = gl_LocalInvocationIndex; i < SPLAT_BATCH / 2u; i += gl_WorkGroupSize.x) {
+            const uint start = i / (run / 2u) * run, within = i % (run / 2u);
+            compareExchange(start + within, start + run - 1u - within);
+        }
+        barrier();
+        for (uint stride = run / 4u; stride > 0u; stride /= 2u) {
+            for (uint i = gl_LocalInvocationIndex; i < SPLAT_BATCH / 2u; i += gl_WorkGroupSize.x) {
+                const uint low = i / stride * stride * 2u + i % stride;
+                compareExchange(low, low + stride);
+            }
+            barrier();
+        }
+    }
+    for (uint i = gl_LocalInvocationIndex; i < count; i += gl_WorkGroupSize.x)
+        pairs.v[first + i] = batchPairs[i];
+}
+#endif

@@ -1,0 +1,57 @@
+#include "testenv/unit/higs/scenes.h"
+
+#include <cmath>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace hipr::test {
+
+float Numbers::operator()(float lo, float hi) {
+    _state = _state * 6364136223846793005ull + 1442695040888963407ull;
+    return lo + (hi - lo) * float(_state >> 40) / float(1 << 24);
+}
+
+SplatCloud randomCloud(const CloudRecipe& r) {
+    Numbers random(r.seed);
+    SplatCloud cloud;
+    cloud.name = "/cloud";
+    cloud.shDegree = r.degree;
+    const auto between = [&](float lo, float hi) {
+        return glm::vec3(random(lo, hi), random(lo, hi), random(lo, hi));
+    };
+    for (size_t i = 0; i < r.count; ++i) {
+        cloud.positions.push_back(r.lo + (r.hi - r.lo) * between(0.f, 1.f));
+        glm::quat q;
+        do
+            q = glm::quat(random(-1, 1), random(-1, 1), random(-1, 1), random(-1, 1));
+        while (glm::length(q) < 0.1f || glm::length(q) > 1.f);
+        cloud.orientations.push_back(glm::normalize(q));
+        cloud.scales.push_back(glm::exp(between(std::log(r.smallest), std::log(r.largest))));
+        cloud.opacities.push_back(random(r.faintest, r.strongest));
+        for (uint32_t k = 0; k < shCoefficients(r.degree); ++k)
+            cloud.coefficients.push_back(k == 0 ? between(-1.5f, 1.5f) : between(-0.3f, 0.3f));
+    }
+    return cloud;
+}
+
+CameraDesc perspectiveCamera(double aspect) {
+    CameraDesc camera;
+    camera.worldToView = glm::lookAt(glm::dvec3(0, 0, 4), glm::dvec3(0), glm::dvec3(0, 1, 0));
+    camera.projection = glm::perspective(glm::radians(40.0), aspect, 0.1, 100.0);
+    return camera;
+}
+
+CameraDesc orthographicCamera(double aspect) {
+    CameraDesc camera = perspectiveCamera(aspect);
+    camera.projection = glm::ortho(-1.2 * aspect, 1.2 * aspect, -1.2, 1.2, 0.1, 100.0);
+    return camera;
+}
+
+SplatScene sceneOf(SplatCloud cloud) {
+    SplatScene scene;
+    scene.clouds.push_back(std::move(cloud));
+    scene.camera = perspectiveCamera(double(scene.width) / scene.height);
+    return scene;
+}
+
+} // namespace hipr::test

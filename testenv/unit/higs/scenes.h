@@ -1,0 +1,36 @@
+/// @file scenes.h
+/// Clouds of splats for tests, the same on every machine.
+#pragma once
+
+#include "testenv/unit/higs/oracle.h"
+
+namespace hipr::test {
+
+/// Numbers that depend on the seed alone.
+class Numbers {
+public:
+    explicit Numbers(uint64_t seed) : _state(seed * 2862933555777941757ull + 3037000493ull) {}
+    /// Uniform between lo and hi.
+    float operator()(float lo, float hi);
+
+private:
+    uint64_t _state;
+};
+
+struct CloudRecipe {
+    size_t count = 300;
+    uint32_t degree = 0;
+    float smallest = 0.01f, largest = 0.3f;  ///< standard deviations
+    float faintest = 0.05f, strongest = 1.f; ///< opacities
+    glm::vec3 lo{-1.2f, -0.9f, -1.f}, hi{1.2f, 0.9f, 1.f};
+    uint64_t seed = 1;
+};
+SplatCloud randomCloud(const CloudRecipe& recipe);
+
+/// At (0, 0, 4), looking at the origin.
+CameraDesc perspectiveCamera(double aspect);
+CameraDesc orthographicCamera(double aspect);
+/// One cloud before the perspective camera.
+SplatScene sceneOf(SplatCloud cloud);
+
+} // namespace hipr::test
