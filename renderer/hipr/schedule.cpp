@@ -7,6 +7,10 @@ namespace {
 
 /// Work on discovered tiles before the floor sets in, in frames.
 constexpr double HeadStart = 0.25;
+/// A change is seen through noise this many times as strong: it has a shape.
+constexpr float ChangeThroughNoise = 4.f;
+/// Share of the tiles beyond which a move of the camera shows nearly everywhere.
+constexpr double WideChange = 0.5;
 
 } // namespace
 
@@ -53,7 +57,9 @@ void TilePasses::advance(uint32_t tiles) {
 }
 
 void TileSchedule::reset(const TileGrid& grid) {
+    const bool keepsPictures = _keepsPictures;
     *this = {};
+    _keepsPictures = keepsPictures;
     _grid = grid;
     _states.assign(grid.count(), {});
     _neverShown = grid.count();
@@ -80,6 +86,32 @@ void TileSchedule::forgetPriorities() {
     for (TileState& state : _states)
         state.priority = 0.f;
     sort(false);
+}
+
+void TileSchedule::keepPictures(bool keep) {
+    _keepsPictures = keep;
+    if (keep) return;
+    for (TileState& state : _states) {
+        if (!state.keepsOld) continue;
+        state.keepsOld = false;
+        state.shown = std::max(1u, state.samples); // of this scene or the one before
+    }
+}
+
+void TileSchedule::changeView() {
+    for (TileState& state : _states)
+        state.comparable = false;
+}
+
+void TileSchedule::carried(const std::vector<float>& errors) {
+    for (uint32_t tile = 0; tile < _states.size(); ++tile) {
+        TileState& state = _states[tile];
+        state.keepsOld = false;
+        state.shown = std::min(state.shown, 1u);
+        discover(tile, errors[tile]);
+    }
+    sort(false);
+    if (_discovered > WideChange * double(_grid.count())) sort(true);
 }
 
 void TileSchedule::discover(uint32_t tile, float priority) {
@@ -110,13 +142,21 @@ void TileSchedule::sort(bool everything) {
     _rest.restart(std::move(rest), _grid, _states);
 }
 
-void TileSchedule::measured(uint32_t tile, float change) {
+void TileSchedule::measured(uint32_t tile, float change, float noise) {
     TileState& state = _states[tile];
     _unsorted |= (change > 0.f) != (state.priority > 0.f);
     state.priority = change;
     state.measured = true;
-    // Two samples at least: an old picture of one is no better than the new one.
-    state.keepsOld = change == 0.f && state.shown > 1;
+    state.change += change;
+    state.noise = noise;
+}
+
+/// Whether the old mean is nearer to the truth than that of the new samples, as far as is known: the noise
+/// of a mean falls with the root of its samples, the old one is besides wrong by the change.
+bool TileSchedule::keepsOld(const TileState& state) const {
+    if (!state.measured || state.samples >= std::min(state.shown, _samples)) return false;
+    const float change = ChangeThroughNoise * state.change, variance = state.noise * state.noise;
+    return variance / float(state.samples) > change * change + variance / float(state.shown);
 }
 
 const std::vector<gpu::TileWork>& TileSchedule::next(uint32_t maxPaths, uint32_t samples) {
@@ -139,7 +179,8 @@ const std::vector<gpu::TileWork>& TileSchedule::next(uint32_t maxPaths, uint32_t
         TileState& state = _states[_grid.at(work.x, work.y)];
         if (work.firstSample == 0) state.foreseen = state.priority > 0.f;
         // What is on display already is an older picture yet: that stays the one to keep.
-        if (work.firstSample == 0 && state.shown > 1 && !state.keepsOld) work.flags = gpu::TILE_SAVES_OLD;
+        if (_keepsPictures && work.firstSample == 0 && state.shown > 1)
+            work.flags = state.keepsOld ? gpu::TILE_KEEPS_OLD : gpu::TILE_SAVES_OLD;
     }
     return _work;
 }
@@ -155,15 +196,22 @@ void TileSchedule::appendFloor(uint32_t maxPaths, uint32_t samples) {
     _owedAfter -= _paths;
 }
 
+/// The new samples are on display.
+void TileSchedule::show(TileState& state) {
+    state.keepsOld = false;
+    state.change = 0.f;
+    _neverShown -= state.shown ? 0 : 1;
+    state.shown = state.samples;
+    state.age = 0;
+}
+
 void TileSchedule::advance() {
     for (const gpu::TileWork& work : _work) {
         TileState& state = _states[_grid.at(work.x, work.y)];
         state.samples = work.firstSample + work.sampleCount;
-        if (state.samples >= std::min(state.shown, _samples)) state.keepsOld = false;
-        if (state.keepsOld) continue;
-        _neverShown -= state.shown ? 0 : 1;
-        state.shown = state.samples;
-        state.age = 0;
+        state.comparable = true;
+        state.keepsOld = keepsOld(state);
+        if (!state.keepsOld) show(state);
     }
     _pathsDone += _paths;
     _front.advance(_frontTaken);

@@ -11,13 +11,16 @@ namespace hipr {
 
 /// What is known of a tile.
 struct TileState {
-    uint32_t samples = 0;  ///< of the current scene, in the film; 0: the film shows an older picture there
-    uint32_t age = 0;      ///< edits since the picture of the tile was rendered; 0: it is current
-    float priority = 0.f;  ///< how much the edit shows, as estimated or measured; 0: not that anybody knows
-    uint32_t shown = 0;    ///< samples in the mean on display, of whatever scene; 0: nothing was ever shown
-    bool measured = false; ///< the priority is measured, no estimate
-    bool foreseen = false; ///< was discovered when its first sample was handed out
-    bool keepsOld = false; ///< on display is the older picture, which the new samples have not changed so far
+    uint32_t samples = 0;   ///< of the current scene, in the film; 0: the film shows an older picture there
+    uint32_t age = 0;       ///< edits since the picture of the tile was rendered; 0: it is current
+    float priority = 0.f;   ///< how much the edit shows, as estimated or measured; 0: not that anybody knows
+    uint32_t shown = 0;     ///< samples in the mean on display, of whatever scene; 0: nothing was ever shown
+    bool comparable = true; ///< sample 0 of the picture on display is of the view that is rendered
+    bool measured = false;  ///< the priority is measured, no estimate
+    bool foreseen = false;  ///< was discovered when its first sample was handed out
+    float change = 0.f;     ///< of the first samples since the picture on display, edit by edit, summed up
+    float noise = 0.f;      ///< how far the last first sample was from the mean on display
+    bool keepsOld = false;  ///< on display is the older picture, which is the better one so far
 };
 
 /// Brings a list of tiles to more and more samples, in order, pass after pass. The first pass takes one
@@ -56,9 +59,10 @@ private:
 ///   3. Discovered tiles get the rest of their samples, then all others.
 /// Without discovered tiles this is uniform rendering.
 ///
-/// A tile whose first sample differs in no pixel from the same sample of the picture on display shows nothing
-/// of the edit: it keeps that picture on display until it has as many new samples, so that what an edit does
-/// not touch does not turn noisy.
+/// A tile of which the edit changes nothing, or less than shows through the noise of the new samples, keeps
+/// the picture on display, so that what an edit hardly touches does not turn noisy. At the latest the new
+/// samples show when there are as many. Changes are those of first samples, which have the noise of the ones
+/// they are compared with; changes of several edits add up until the tile is refreshed.
 ///
 /// Whatever the order, every tile gets its samples 0, 1, 2... once: the picture at N samples does not depend
 /// on it.
@@ -72,12 +76,21 @@ public:
     /// Forgets all priorities: the next tiles come in uniform order.
     void forgetPriorities();
 
+    /// Whether old pictures are kept; if not, those that are on display give way to the new samples.
+    void keepPictures(bool keep);
+    /// The view changed: samples from before cannot be compared with new ones.
+    void changeView();
+    /// After invalidate(): the picture on display was carried to another camera, and is now worth one sample
+    /// a pixel. `errors`: what is wrong with each tile; they become the priorities.
+    void carried(const std::vector<float>& errors);
+
     /// Adds to what is believed of the edit: a tile that was not measured keeps its greatest priority. Takes
     /// effect with the next sort() or advance().
     void discover(uint32_t tile, float priority);
-    /// What is known of a tile: how much its first sample changes the picture. Between next() and advance()
-    /// of the work that holds it.
-    void measured(uint32_t tile, float change);
+    /// What is known of a tile: how much its first sample differs from the same sample of the picture on
+    /// display, and (`noise`) from the mean on display; both in radiance. Between next() and advance() of the
+    /// work that holds it.
+    void measured(uint32_t tile, float change, float noise);
     /// Orders the tiles. `everything`: the undiscovered ones go behind the discovered ones in the same list,
     /// because the edit shows nearly everywhere.
     void sort(bool everything);
@@ -100,12 +113,16 @@ public:
     uint64_t pathsDone() const { return _pathsDone; }
     /// Whether every tile has shown some picture.
     bool everythingShown() const { return _neverShown == 0; }
+    /// Whether any tile has.
+    bool anythingShown() const { return _neverShown < _grid.count(); }
     /// Whether every discovered tile has a sample of the current scene.
     bool discoveredRefreshed() const { return _front.complete(1); }
     uint32_t discoveredTiles() const { return _discovered; }
 
 private:
+    void show(TileState& state);
     void appendFloor(uint32_t maxPaths, uint32_t samples);
+    bool keepsOld(const TileState& state) const;
 
     TileGrid _grid;
     std::vector<TileState> _states;
@@ -114,7 +131,7 @@ private:
     uint32_t _samples = 0; ///< wanted by the last next()
     double _owed = 0;      ///< paths the floor is behind with; below 0: what the discovered tiles have ahead
     uint32_t _neverShown = 0, _discovered = 0;
-    bool _everything = false, _unsorted = false;
+    bool _everything = false, _unsorted = false, _keepsPictures = true;
     uint64_t _pathsDone = 0;
 
     std::vector<gpu::TileWork> _work; ///< handed out by next()

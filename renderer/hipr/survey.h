@@ -26,6 +26,7 @@ public:
     void begin(const TileGrid& grid, float rate, uint32_t turn, bool spread = false);
     /// A tile in which something that changed is or was; looked at closely. Between begin() and next().
     void suspect(uint32_t tile);
+    bool suspected(uint32_t tile) const { return _tiles[tile].suspected; }
 
     /// The next scouts, about `maxPaths` of them at most. Empty when the survey is complete. Handed out again
     /// until report() brings their results, one a path, in the order of the slots.

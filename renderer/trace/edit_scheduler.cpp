@@ -85,7 +85,11 @@ bool EditScheduler::scout(uint32_t maxPaths, const std::atomic<bool>& cancel) {
 
 void EditScheduler::finishSurvey() {
     if (discovers(_settings)) return startDiscovery();
-    order(_survey.priorities());
+    std::vector<float> priorities = _survey.priorities();
+    for (uint32_t tile = 0; tile < priorities.size();
+         ++tile) // elsewhere the view, not the edit, was compared
+        if (!_schedule.tiles()[tile].comparable && !_survey.suspected(tile)) priorities[tile] = 0.f;
+    order(priorities);
     if (_survey.meanRadiance() > 0.f) _phase = Phase::Follow;
 }
 
@@ -131,9 +135,11 @@ void EditScheduler::measured(const std::vector<gpu::TileWork>& tiles) {
     for (size_t i = 0; i < tiles.size(); ++i) {
         if (tiles[i].firstSample > 0) continue;
         const uint32_t tile = _schedule.grid().at(tiles[i].x, tiles[i].y);
+        if (!_schedule.tiles()[tile].comparable) continue;
         const float pixels = float(tiles[i].width * tiles[i].height);
-        const float change = float(_changes[i].change) / (pixels * StepsPerRadiance); // in mean radiances
-        _schedule.measured(tile, change * radiance);
+        const float steps = pixels * StepsPerRadiance;
+        const float change = float(_changes[i].change) / steps; // in mean radiances
+        _schedule.measured(tile, change * radiance, float(_changes[i].noise) / steps * radiance);
         if (change < LeastChange) continue;
         forNeighbours(_schedule.grid(), tile, [&](uint32_t neighbour) {
             _schedule.discover(neighbour, NeighbourShare * change * radiance);

@@ -47,6 +47,7 @@ void FilmBuffers::setDesc(const FilmDesc& desc) {
 void FilmBuffers::clear() {
     _width = _height = 0;
     _sums = {}, _oldPicture = {}, _firstSamples = {}, _visibility = {}, _previousHits = {}, _targets = {};
+    _seen = {}, _seenAfter = {}, _sources = {};
     _firstHits.clear();
     _hasPrevious = false;
 }
@@ -60,7 +61,7 @@ void FilmBuffers::refuse(const std::string& reason) {
 
 void FilmBuffers::allocate() {
     _sums = filled(pixels() * sizeof(gpu::FilmPixel), 0);
-    _oldPicture = _device.createBuffer(pixels() * sizeof(gpu::OldPixel), MemoryUse::Device, "Film");
+    createPictures();
     _firstSamples = _device.createBuffer(pixels() * sizeof(glm::vec3), MemoryUse::Device, "Film");
     std::vector<gpu::AovTarget> targets;
     for (const AovRequest& request : _desc.aovs) {
@@ -87,6 +88,36 @@ void FilmBuffers::createHits() {
     create(_previousHits, _keepsHits);
 }
 
+void FilmBuffers::createPictures() {
+    if (!_keepsPictures || pixels() == 0) {
+        _oldPicture = {}, _seen = {}, _seenAfter = {}, _sources = {};
+        return;
+    }
+    const auto create = [&](size_t stride) {
+        return _device.createBuffer(pixels() * stride, MemoryUse::Device, "Film");
+    };
+    _oldPicture = create(sizeof(gpu::OldPixel));
+    _seen = filled(pixels() * sizeof(gpu::SeenPoint), gpu::SEEN_NOTHING);
+    _seenAfter = create(sizeof(gpu::SeenPoint));
+    _sources = create(sizeof(gpu::CarriedSource));
+}
+
+void FilmBuffers::keepPictures(bool keep) {
+    if (keep == _keepsPictures) return;
+    _keepsPictures = keep;
+    createPictures();
+}
+
+bool FilmBuffers::carry(Reprojection& reprojection, const TileSchedule& schedule,
+                        const gpu::CameraRecord& before, const gpu::CameraRecord& after,
+                        std::vector<gpu::CarriedRow>& rows) {
+    if (!_seen) return false;
+    if (!reprojection.carry({_sums, _oldPicture, _seen, _seenAfter, _sources}, schedule, before, after, rows))
+        return false;
+    _seen.swap(_seenAfter);
+    return true;
+}
+
 bool FilmBuffers::keepHits(bool keep) {
     if (keep == _keepsHits) return false;
     _keepsHits = keep;
@@ -111,6 +142,7 @@ void FilmBuffers::describe(gpu::TraceRecord& record) const {
     record.film = _sums ? _sums.address() : 0;
     record.oldPicture = _oldPicture ? _oldPicture.address() : 0;
     record.firstSamples = _firstSamples ? _firstSamples.address() : 0;
+    record.seen = _seen ? _seen.address() : 0;
     record.visibility = _visibility ? _visibility.address() : 0;
     record.aovs = _targets ? _targets.address() : 0;
     record.aovCount = uint32_t(_firstHits.size());

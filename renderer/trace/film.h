@@ -7,6 +7,7 @@
 #include "renderer/api/film.h"
 #include "renderer/hipr/schedule.h"
 #include "renderer/shading/names.h"
+#include "renderer/trace/reprojection.h"
 #include "renderer/vulkan/device.h"
 #include "shaders/shared/scene.h"
 #include "shaders/shared/trace.h"
@@ -39,6 +40,13 @@ public:
     /// Address of the gpu::VisibilityRecords from before the edit, or 0.
     VkDeviceAddress previousHits() const { return _hasPrevious ? _previousHits.address() : 0; }
 
+    /// Whether what modes that look for edits need is kept: pictures from before them, and what pixels see.
+    /// From then on, where it was not kept before.
+    void keepPictures(bool keep);
+    /// Carries what is on display to another camera: see Reprojection::carry().
+    bool carry(Reprojection& reprojection, const TileSchedule& schedule, const gpu::CameraRecord& before,
+               const gpu::CameraRecord& after, std::vector<gpu::CarriedRow>& rows);
+
     void describe(gpu::TraceRecord& record) const;
 
     bool holds(const AovRequest& aov) const;
@@ -57,13 +65,15 @@ private:
     void readSums(AovKind kind, const TileSchedule& schedule, float* dst) const;
     template <class T> const T* hostCopy(const Buffer& buffer, std::vector<T>& copy) const;
     void createHits();
+    void createPictures();
 
     Device& _device;
     NameTable& _names;
     FilmDesc _desc; ///< as asked for
     uint32_t _width = 0, _height = 0;
     Buffer _sums, _oldPicture, _firstSamples, _visibility, _previousHits, _targets;
-    bool _keepsHits = false, _hasPrevious = false;
+    Buffer _seen, _seenAfter, _sources;
+    bool _keepsHits = false, _hasPrevious = false, _keepsPictures = false;
     std::vector<FirstHitAov> _firstHits;
 };
 

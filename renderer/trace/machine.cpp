@@ -40,8 +40,8 @@ MachinePtr makeMachine(const RendererOptions& options, uint32_t paths, std::stri
     std::unique_ptr<Device> device = Device::create(options, error);
     if (!device) return nullptr;
     Device& used = *device;
-    return MachinePtr(
-        new Machine{key, std::move(device), PathTracer(used, std::max(batchCapacity(used.info()), paths))});
+    return MachinePtr(new Machine{
+        key, std::move(device), PathTracer(used, std::max(batchCapacity(used.info()), paths)), {}});
 }
 
 MachineReuse::MachineReuse() {

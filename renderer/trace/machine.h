@@ -6,6 +6,7 @@
 #include <string>
 
 #include "renderer/trace/path_tracer.h"
+#include "renderer/trace/reprojection.h"
 #include "renderer/vulkan/device.h"
 
 namespace hipr {
@@ -14,6 +15,7 @@ struct Machine {
     std::string key; ///< what it was made for
     std::unique_ptr<Device> device;
     PathTracer tracer;
+    std::unique_ptr<Reprojection> reprojection = {}; ///< once a mode needed it
 };
 
 /// Puts a machine where the next renderer finds it, while a MachineReuse lives.

@@ -74,6 +74,7 @@ RendererImpl::RendererImpl(MachinePtr machine, const RendererOptions& options,
     : _machine(std::move(machine)), _device(_machine->device.get()), _internals(internals),
       _scene(*_device, options.assets), _film(*_device, _scene.names()), _tracer(_machine->tracer),
       _edits(*_device, _scene, _film, _tracer, _schedule, _log), _batch(_tracer.capacity()) {
+    prepareMode();
     selectTraversal();
     _scene.commit();
 }
@@ -129,6 +130,7 @@ void RendererImpl::selectTraversal() {
 ChangedSet RendererImpl::commit(SceneEdit& edit) {
     ChangedSet changed;
     guarded([&] {
+        const std::optional<CameraDesc> before = _scene.camera();
         changed = _scene.apply(edit.take());
         if (changed.empty()) return true;
         const bool camera = anyCamera(changed), traced = _scene.tracedChanged();
@@ -136,7 +138,10 @@ ChangedSet RendererImpl::commit(SceneEdit& edit) {
         _scene.commit();
         _scene.addOccupied(changed, regions);
         if (camera || traced) restart(camera ? Cause::Camera : Cause::Edit);
-        if (!camera && traced) startSearch(changed, regions);
+        if (camera)
+            moveCamera(before, regions);
+        else if (traced)
+            startSearch(changed, regions);
         return true;
     });
     return changed;
@@ -160,6 +165,7 @@ ChangedSet RendererImpl::setSettings(const Settings& settings) {
         const bool same = samePicture(_settings, settings);
         if (settings.mode != _settings.mode) _edits.stop();
         _settings = settings;
+        prepareMode();
         _edits.prepare(settings);
         if (_film.keepHits(EditScheduler::discovers(settings))) _firstHitsDone = 0;
         const std::string traversal = _traversalInUse;
@@ -195,7 +201,10 @@ void RendererImpl::restart(Cause cause) {
         _schedule.reset(grid);
     else
         _schedule.invalidate();
-    if (cause != Cause::Edit) _schedule.forgetPriorities();
+    if (cause != Cause::Edit) {
+        _schedule.forgetPriorities();
+        _schedule.changeView();
+    }
     _schedule.setFloor(_settings.floorShare);
     retireHits(cause);
     _setupPending = true;
@@ -261,6 +270,7 @@ bool RendererImpl::renderBatch() {
         // Compiling may take seconds; the host stays in charge meanwhile.
         if (!_tracer.ready(std::chrono::milliseconds(50))) return true;
         if (!_edits.ready(std::chrono::milliseconds(50))) return true;
+        if (_schedule.everythingShown() && !readyToMove(std::chrono::milliseconds(50))) return true;
         if (_edits.wantsFirstHits() && !firstHitsDone()) return renderFirstHits();
         if (_edits.searching()) return search();
         const bool sampled = _schedule.samplesDone() >= uint32_t(_settings.samples);

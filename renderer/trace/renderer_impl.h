@@ -50,6 +50,9 @@ private:
     void finish();
     void restart(Cause cause);
     void retireHits(Cause cause);
+    void prepareMode();
+    bool readyToMove(std::chrono::milliseconds patience);
+    void moveCamera(const std::optional<CameraDesc>& before, const std::vector<WorldBox>& regions);
     void startSearch(const ChangedSet& changed, const std::vector<WorldBox>& regions);
     uint32_t tileSize() const;
     bool setup();

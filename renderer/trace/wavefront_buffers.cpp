@@ -17,6 +17,7 @@ WavefrontBuffers::WavefrontBuffers(Device& device, uint32_t capacity) : capacity
     transmitHits = make(capacity, sizeof(gpu::Hit));
     tileChanges = make(capacity, sizeof(gpu::TileChange));
     scoutResults = make(capacity, sizeof(gpu::ScoutResult));
+    seen = make(capacity, sizeof(gpu::SeenPoint));
     for (int i = 0; i < 2; ++i) {
         rays[i] = make(capacity, sizeof(gpu::Ray));
         raySlots[i] = make(capacity, sizeof(uint32_t));
@@ -41,6 +42,7 @@ void WavefrontBuffers::describe(gpu::TraceRecord& record) const {
     record.transmitHits = transmitHits.address();
     record.tileChanges = tileChanges.address();
     record.scoutResults = scoutResults.address();
+    record.pathSeen = seen.address();
     for (int i = 0; i < 2; ++i) {
         record.rays[i] = rays[i].address();
         record.raySlots[i] = raySlots[i].address();

@@ -7,7 +7,7 @@
 
 namespace hipr {
 
-/// About 345 bytes a path.
+/// About 361 bytes a path.
 struct WavefrontBuffers {
     WavefrontBuffers(Device& device, uint32_t capacity);
 
@@ -21,7 +21,7 @@ struct WavefrontBuffers {
 
     const uint32_t capacity; ///< paths
     Buffer headers, counters, tiles, paths, hits, shadowRays, shadowWork, shadowResults, transmitHits,
-        scoutResults, tileChanges;
+        scoutResults, tileChanges, seen;
     Buffer rays[2], raySlots[2], transmitRays[2], transmitWork[2];
 };
 

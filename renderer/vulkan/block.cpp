@@ -13,11 +13,14 @@ std::optional<uint64_t> Block::allocate(uint64_t bytes, uint64_t alignment) {
         const uint64_t begin = it->first, end = begin + it->second;
         const uint64_t offset = (begin + alignment - 1) & ~(alignment - 1);
         if (offset >= end || end - offset < bytes) continue;
+        Ranges used{{offset, bytes}}, rest; // all that may fail comes before all that changes
+        if (offset + bytes < end) rest.emplace(offset + bytes, end - offset - bytes);
+        _used.merge(used);
+        _free.merge(rest);
         if (offset > begin)
             it->second = offset - begin; // the alignment gap stays free
         else
             _free.erase(it);
-        if (offset + bytes < end) _free.emplace(offset + bytes, end - offset - bytes);
         _freeBytes -= bytes;
         return offset;
     }
@@ -26,6 +29,7 @@ std::optional<uint64_t> Block::allocate(uint64_t bytes, uint64_t alignment) {
 
 void Block::free(uint64_t offset, uint64_t bytes) {
     _freeBytes += bytes;
+    Ranges::node_type node = _used.extract(offset);
     auto next = _free.lower_bound(offset);
     if (next != _free.end() && next->first == offset + bytes) {
         bytes += next->second;
@@ -38,7 +42,8 @@ void Block::free(uint64_t offset, uint64_t bytes) {
             return;
         }
     }
-    _free.emplace(offset, bytes);
+    node.mapped() = bytes;
+    _free.insert(std::move(node));
 }
 
 } // namespace hipr

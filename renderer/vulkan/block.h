@@ -17,7 +17,7 @@ public:
     /// The offset of `bytes` free bytes at a multiple of `alignment` (a power of two), or nothing when they
     /// do not fit. `bytes` must not be 0.
     std::optional<uint64_t> allocate(uint64_t bytes, uint64_t alignment);
-    /// Returns a range exactly as allocate() gave it.
+    /// Returns a range exactly as allocate() gave it. Never fails.
     void free(uint64_t offset, uint64_t bytes);
 
     uint64_t bytes() const { return _bytes; }
@@ -27,7 +27,9 @@ public:
 
 private:
     uint64_t _bytes, _freeBytes;
-    std::map<uint64_t, uint64_t> _free; ///< offset -> bytes; no two ranges touch
+    using Ranges = std::map<uint64_t, uint64_t>; ///< offset -> bytes
+    Ranges _free;                                ///< no two of them touch
+    Ranges _used;                                ///< so that free() has a place for each and cannot fail
 };
 
 } // namespace hipr

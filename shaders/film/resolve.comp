@@ -15,23 +15,35 @@ void addTo(inout vec3 sum, inout vec3 error, vec3 value) {
 }
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FirstSampleRef { vec3 v[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer OldPictureRef { OldPixel v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer OldPictureRef { OldPixel v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer SeenRef { SeenPoint v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TileChangeRef { TileChange v[]; };
+
+// Steps of gpu::TileChange: the mean over the channels of |a - b|.
+uint changeSteps(TraceRecord trace, vec3 a, vec3 b) {
+    return uint(min(dot(abs(a - b), vec3(trace.changeScale / 3.0)), MAX_PIXEL_CHANGE));
+}
 
 // Keeps a pixel's sample 0 for comparisons to come, and compares it with the one it replaces.
 void replaceFirstSample(TraceRecord trace, uint pixel, vec3 radiance) {
     if (trace.changeScale > 0.0) {
-        const vec3 difference = (radiance - FirstSampleRef(trace.firstSamples).v[pixel]) * (trace.changeScale / 3.0);
-        const float change = min(dot(abs(difference), vec3(1.0)), MAX_PIXEL_CHANGE);
-        if (change > 0.0) atomicAdd(TileChangeRef(trace.tileChanges).v[gl_WorkGroupID.y].change, uint(change));
+        const uint change = changeSteps(trace, radiance, FirstSampleRef(trace.firstSamples).v[pixel]);
+        if (change > 0u) atomicAdd(TileChangeRef(trace.tileChanges).v[gl_WorkGroupID.y].change, change);
     }
     FirstSampleRef(trace.firstSamples).v[pixel] = radiance;
 }
 
-void saveOld(TraceRecord trace, uint pixel) {
-    const FilmPixel old = FilmRef(trace.film).v[pixel];
-    const float weight = 1.0 / float(max(old.count, 1u));
-    OldPictureRef(trace.oldPicture).v[pixel] = OldPixel(old.color * weight, old.albedo * weight);
+// Looks at the picture on display before a pixel's sample 0 takes its place in the film.
+void retire(TraceRecord trace, uint flags, uint pixel, vec3 radiance) {
+    if ((flags & TILE_SAVES_OLD) != 0u) {
+        const FilmPixel old = FilmRef(trace.film).v[pixel];
+        const float weight = 1.0 / float(max(old.count, 1u));
+        OldPictureRef(trace.oldPicture).v[pixel] = OldPixel(old.color * weight, old.albedo * weight);
+    }
+    if (trace.changeScale > 0.0 && flags != 0u) {
+        const uint noise = changeSteps(trace, radiance, OldPictureRef(trace.oldPicture).v[pixel].color.rgb);
+        if (noise > 0u) atomicAdd(TileChangeRef(trace.tileChanges).v[gl_WorkGroupID.y].noise, noise);
+    }
 }
 
 void main() {
@@ -44,12 +56,16 @@ void main() {
     // The first sample replaces what an earlier picture left in the pixel.
     FilmPixel sum = FilmPixel(vec4(0.0), vec3(0.0), 0u, vec3(0.0), vec3(0.0));
     if (tile.firstSample != 0u) sum = FilmRef(trace.film).v[pixel];
-    if ((tile.flags & TILE_SAVES_OLD) != 0u) saveOld(trace, pixel);
     vec3 color = sum.color.rgb;
     for (uint i = 0u; i < tile.sampleCount; ++i) {
         const PathState path = PathRef(trace.paths).v[tile.firstSlot + local * tile.sampleCount + i];
         const vec3 radiance = pathRadiance(trace, path);
-        if (i == 0u && tile.firstSample == 0u) replaceFirstSample(trace, pixel, radiance);
+        if (i == 0u && tile.firstSample == 0u) {
+            replaceFirstSample(trace, pixel, radiance);
+            retire(trace, tile.flags, pixel, radiance);
+            if (trace.seen != 0ul)
+                SeenRef(trace.seen).v[pixel] = PathSeenRef(trace.pathSeen).v[tile.firstSlot + local * tile.sampleCount];
+        }
         addTo(color, sum.colorError, radiance);
         addTo(sum.albedo, sum.albedoError, path.albedo);
         sum.color.a += path.alpha; // whole numbers

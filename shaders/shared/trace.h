@@ -15,6 +15,7 @@ struct TileWork {
     uint flags;              // TILE_*
 };
 HIPR_CONST uint TILE_SAVES_OLD = 1u; // the mean on display goes to TraceRecord::oldPicture before sample 0 replaces it
+HIPR_CONST uint TILE_KEEPS_OLD = 2u; // the mean on display is in TraceRecord::oldPicture already
 
 // Pinhole or orthographic, from matrices. The ray through NDC (x, y) has
 //   direction = normalize(direction + x * directionX + y * directionY),
@@ -43,6 +44,13 @@ struct VisibilityRecord {
     float cameraDepth;       // depth, see CameraRecord
     uint object;             // ObjectId value; 0: nothing. With the next field, what is seen whatever the order of instances
     uint objectInstance;     // index into InstancesDesc::transforms
+};
+
+// What a pixel on display shows: the point of a surface under the pixel's centre, in world space, and how it looks from
+// elsewhere (`look`, see reproject.h).
+struct SeenPoint {
+    vec3 point;
+    uint look;
 };
 
 // One path between two kernels.
@@ -93,7 +101,8 @@ struct OldPixel {
 // How the first new samples of a work item differ from the picture on display: sums over its pixels, in units of
 // 1 / TraceRecord::changeScale, whole numbers so that no order of adding shows.
 struct TileChange {
-    uint change;             // of the mean over the channels of |new - old|
+    uint change;             // of the mean over the channels of |new - old|, old being the same sample
+    uint noise;              // of the same with the mean on display for old, where a flag of the work item tells where it is
 };
 HIPR_CONST float MAX_PIXEL_CHANGE = 65535.0f; // in the same units; 2^15 pixels fit
 
@@ -153,6 +162,8 @@ struct TraceRecord {
     uint64_t visibility;     // VisibilityRecord[]
     uint64_t oldPicture;     // OldPixel[]
     uint64_t firstSamples;   // vec3[]: radiance of each pixel's sample 0 in the picture on display
+    uint64_t seen;           // SeenPoint[]: what each pixel on display shows, as its sample 0 saw it; or 0
+    uint64_t pathSeen;       // SeenPoint[] by path: what sample 0 sees
     uint64_t scoutResults;   // ScoutResult[]
     uint64_t tileChanges;    // TileChange[]: one a work item
     uint64_t aovs;           // AovTarget[aovCount]

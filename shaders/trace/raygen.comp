@@ -4,6 +4,7 @@
 #include "trace/camera.glsl"
 #include "sampling/sobol.glsl"
 #include "sampling/filter.glsl"
+#include "shared/reproject.h"
 
 void main() {
     const TraceRecord trace = TraceRecordRef(push.record).v;
@@ -32,6 +33,7 @@ void main() {
     const vec4 u = sobol4(pixel, path.sampleIndex, 0u, trace.seed);
     const vec2 film = vec2(pixel) + 0.5 + sampleFilter(trace.pixelFilter, trace.filterWidth, u.xy);
     PathRef(trace.paths).v[slot] = path;
+    PathSeenRef(trace.pathSeen).v[slot].look = SEEN_NOTHING;
     RayRef(trace.rays[0]).v[slot] = cameraRay(CameraRef(trace.camera).v, film, uvec2(trace.width, trace.height));
     SlotRef(trace.raySlots[0]).v[slot] = slot;
 }

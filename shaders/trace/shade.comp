@@ -2,19 +2,22 @@
 // sample goes to the shadow queue, the continued path to the other ray queue.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "trace/wavefront.glsl"
+#include "trace/camera.glsl"
 #include "trace/offset.glsl"
 #include "sampling/sobol.glsl"
 #include "material/surface.glsl"
 #include "material/bsdf.glsl"
 #include "light/sample.glsl"
 #include "light/hit.glsl"
-#include "shared/hipr.h"
+#include "shared/reproject.h"
 
 // Random vectors of one event; raygen has set 0.
 const uint RANDOM_LIGHT = 1u; // w, which light sampling leaves alone, decides on passing through and on roulette
 const uint RANDOM_BSDF = 2u;
 const uint RANDOM_SETS = 2u;
+
+// How far, as a share of the depth, the plane of a surface is followed to the pixel's centre.
+const float PLANE_REACH = 0.05;
 
 // The part of PathState that a bounce works on.
 struct Path {
@@ -95,6 +98,31 @@ bool bounce(TraceRecord trace, inout Path path, inout Ray ray, Surface surface, 
     return any(greaterThan(path.throughput, vec3(0.0))) && allFinite(path.throughput);
 }
 
+// Whether what the path has met is what its pixel shows, and is to be kept.
+bool keepsSeen(TraceRecord trace, Path path) {
+    return path.depth == 0u && path.sampleIndex == 0u && trace.seen != 0ul;
+}
+
+Ray rayThroughCentre(TraceRecord trace, Path path) {
+    return cameraRay(CameraRef(trace.camera).v, vec2(path.pixel) + 0.5, uvec2(trace.width, trace.height));
+}
+
+// The sample lies somewhere around the pixel's centre: what shows there is the surface, continued as a plane. Where that
+// leads far away, as at silhouettes, the point at the same depth.
+void keepSeenSurface(TraceRecord trace, Path path, Surface surface) {
+    const Ray centre = rayThroughCentre(trace, path);
+    const vec3 forward = CameraRef(trace.camera).v.forward, way = surface.position - centre.origin;
+    const float level = dot(way, forward) / dot(centre.direction, forward);
+    const float onPlane = dot(way, surface.ng) / dot(centre.direction, surface.ng);
+    const float distance_ = abs(onPlane - level) <= PLANE_REACH * level ? onPlane : level;
+    const float coat = surface.lobeChance.x, other = surface.lobeChance.y + surface.lobeChance.w, share = coat + other;
+    const float alpha = (coat * surface.coatAlpha + other * surface.alpha) / max(share, 1e-6);
+    const float scattered = luminance(surface.albedo), emitted = luminance(surface.emission);
+    PathSeenRef(trace.pathSeen).v[path.slot] =
+        SeenPoint(centre.origin + distance_ * centre.direction,
+                  packLook(share * scattered / max(scattered + emitted, 1e-6), alpha, 0.0));
+}
+
 // What a surface does with a path. False: the path ends here.
 bool scatter(TraceRecord trace, SceneRecord scene, inout Path path, inout Ray ray, Hit hit) {
     const Surface surface = evaluateSurface(scene, hit, ray);
@@ -108,6 +136,7 @@ bool scatter(TraceRecord trace, SceneRecord scene, inout Path path, inout Ray ra
     if (path.depth == 0u) {
         PathRef(trace.paths).v[path.slot].alpha = 1.0;
         PathRef(trace.paths).v[path.slot].albedo = surface.albedo;
+        if (keepsSeen(trace, path)) keepSeenSurface(trace, path, surface);
     }
     addRadiance(trace, path.slot, path.throughput * surface.emission, path.depth > 1u);
     if (path.depth >= trace.maxDepth) return false;
@@ -136,6 +165,8 @@ void main() {
 
     const bool miss = hit.instance == NO_INDEX;
     collectLight(trace, scene, path, ray, miss ? ray.tMax : hit.t, miss);
+    if (miss && keepsSeen(trace, path))
+        PathSeenRef(trace.pathSeen).v[path.slot] = SeenPoint(rayThroughCentre(trace, path).direction, SEEN_SKY);
     if (miss || !scatter(trace, scene, path, ray, hit)) return;
     storePath(trace, path);
     const uint other = 1u - push.turn;

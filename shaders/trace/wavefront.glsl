@@ -21,6 +21,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer SlotRef { ui
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer HitRef { Hit v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer ShadowWorkRef { ShadowWork v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FilmRef { FilmPixel v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PathSeenRef { SeenPoint v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer VisibilityRef { VisibilityRecord v[]; };
 
 layout(push_constant, scalar) uniform Push { TraceKernelPush push; };

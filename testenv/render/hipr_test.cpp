@@ -49,6 +49,7 @@ public:
                     {AovKind::PrimId, {}},
                     {AovKind::Priority, {}},
                     {AovKind::Discovered, {}},
+                    {AovKind::Age, {}},
                     {AovKind::SampleCount, {}}});
     }
 
@@ -122,6 +123,16 @@ template <class T> std::vector<T> byTile(Stage& stage, AovKind kind) {
 
 uint32_t tileOf(size_t pixel) {
     return uint32_t(pixel % Size / Tile + pixel / Size / Tile * Columns);
+}
+
+/// Sum of |a - b| over the pixels of tiles that are marked.
+double errorIn(const std::vector<int>& tiles, const ColorPicture& a, const ColorPicture& b) {
+    double sum = 0;
+    for (size_t i = 0; i < a.values.size(); ++i) {
+        const glm::vec4 d = glm::abs(a.values[i] - b.values[i]);
+        if (tiles[tileOf(i)]) sum += d.x + d.y + d.z;
+    }
+    return sum;
 }
 
 /// |a - b| by tile: of the tile's means, in which the noise of single pixels cancels.
@@ -288,6 +299,34 @@ TEST(Hipr, ScoutsFindWhatNoPixelSees) {
         EXPECT_GT(shareFound(settingsFor("paper"), edit), 0.9) << edit.name;
     // Paper mode has scouts to begin with, and few of its paths lead from them to the rest of the mirror.
     EXPECT_GT(shareFound(settingsFor("paper"), MovesInMirror), 0.4);
+}
+
+// Where indirect light changes by less than the noise of a sample, the old picture is the better one; where
+// the edit is seen, it shows.
+TEST(Hipr, OldPicturesStayWhereTheyAreBetter) {
+    Stage stage(settingsFor("delta", 32)), onceStage(settingsFor("uniform", 1));
+    Scene scene(stage), onceScene(onceStage);
+    stage.render();
+    std::vector<int> own(Tiles), kept(Tiles);
+    markTiles(stage, scene.inView, own);
+    MovesInView.apply(scene);
+    discover(stage);
+    const ColorPicture shown = stage.color();
+    const std::vector<int> age = byTile<int>(stage, AovKind::Age);
+    const std::vector<float> change = byTile<float>(stage, AovKind::Priority);
+    stage.render();
+    markTiles(stage, scene.inView, own);
+    for (uint32_t tile = 0; tile < Tiles; ++tile) {
+        kept[tile] = age[tile] == 1 && change[tile] > 0.f;
+        EXPECT_TRUE(!own[tile] || age[tile] == 0) << tile;
+    }
+    EXPECT_GT(std::count(kept.begin(), kept.end(), 1), int(Tiles) / 10);
+    for (int tile : byTile<int>(stage, AovKind::Age))
+        EXPECT_EQ(tile, 0);
+
+    MovesInView.apply(onceScene);
+    onceStage.render();
+    EXPECT_LT(errorIn(kept, shown, stage.color()), 0.5 * errorIn(kept, onceStage.color(), stage.color()));
 }
 
 TEST(Hipr, WeightsAreTheSameInEveryRun) {

@@ -3,10 +3,10 @@
 
 Every edit is made on a converged picture and rendered to convergence, in every mode, in turns. D is the difference of the
 converged pictures before and after (same seed: what an edit does not touch is equal to the last bit). T50, T90, T99 are
-the work (paths, scouts included) and the time until that share of D lies in tiles with a new sample. The first turn renders
-all samples and gives all figures of work and of the picture on display; the other turns render few samples and give more times.
-The last table says which goals are met; figures by the clock want an idle machine. numpy, OpenEXR and
-matplotlib come from PyPI into a virtual environment of their own, once.
+the work (paths, scouts included) and the time until that share of D lies in refreshed tiles: those that show new samples, or keep
+an old picture that is no worse. The error on display is that of the picture a viewer sees, against the converged one. The
+last table says which goals are met; figures by the clock want an idle machine. numpy, OpenEXR, matplotlib and
+flip-evaluator come from PyPI into a virtual environment of their own, once.
 """
 
 import argparse
@@ -42,7 +42,6 @@ def parse():
                         help="uniform first: the yardstick; MODE@SIZE sets hipr:tileSize, as in delta@16 [%(default)s]")
     parser.add_argument("--samples", type=int, default=4, help="[%(default)s]")
     parser.add_argument("--width", type=int, default=640, help="of the pictures, pixels [%(default)s]")
-    parser.add_argument("--few", type=int, default=2, help="samples of the later turns [%(default)s]")
     parser.add_argument("--turns", type=int, default=1, help="more of them give more times [%(default)s]")
     parser.add_argument("--only", default="", metavar="REGEX", help="only scenes whose name matches")
     parser.add_argument("--flip", default="", metavar="EDIT,...", help="edits whose FLIP error is followed batch by batch, such as "

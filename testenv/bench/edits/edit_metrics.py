@@ -29,12 +29,22 @@ def tile_energy(grid, d):
     return np.add.reduceat(rows, np.arange(0, grid.width, grid.tile), axis=1).ravel()
 
 
-def times(run, energy):
-    """For each of SHARES: paths and seconds until that share of the energy lies in tiles that show new samples."""
-    refreshed = np.cumsum([energy[step.fresh].sum() for step in run.steps]) / energy.sum()
+def refreshed(run, energy, fine):
+    """The share of the energy that lies in refreshed tiles, after each step: in tiles that show new samples, or might as well,
+    which is where `fine(tile, samples)` says that the picture they keep is as good."""
+    done, shares = np.zeros(run.grid.count, bool), []
+    for step in run.steps:
+        done[[tile for tile, _ in step.shows]] = True
+        done[[tile for tile, samples in step.keeps if fine(tile, samples)]] = True
+        shares.append(energy[done].sum() / energy.sum())
+    return np.array(shares)
+
+
+def times(run, shares):
+    """For each of SHARES: paths and seconds until that share of the energy is refreshed."""
     result = []
     for share in SHARES:
-        step = run.steps[int(np.argmax(refreshed >= share * (1 - 1e-12)))]
+        step = run.steps[int(np.argmax(shares >= share * (1 - 1e-12)))]
         result.append((step.paths, step.seconds))
     return result
 

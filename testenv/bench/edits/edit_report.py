@@ -4,9 +4,9 @@ import csv
 import os
 from statistics import median
 
-from edit_goals import print_goals
+from edit_goals import CAMERA, print_goals
 
-HEAD = ("| edit | shows in | T50 | T90 | T99 | T90 / uniform | on the clock | quality | strict | recall | followed | found | waste | "
+HEAD = ("| edit | shows in | T50 | T90 | T99 | T90 / uniform | new only | on the clock | quality | strict | recall | followed | found | waste | "
         "scouts | survey | reveal |")
 
 
@@ -36,7 +36,7 @@ class Report:
         clock = self.clock(row)
         frames = [paths / row["pixels"] for paths in row["paths"]]
         cells = [f"{row['scene']}: {row['edit']}", f"{100 * row['region']:.1f} %", *(f"{f:.2f}" for f in frames),
-                 f"{self.ratio(row):.2f}", f"{median(clock):.2f} ({clock[0]:.2f}-{clock[-1]:.2f})",
+                 f"{self.ratio(row):.2f}", f"{row['new'][1] / self._base(row)['new'][1]:.2f}", f"{median(clock):.2f} ({clock[0]:.2f}-{clock[-1]:.2f})",
                  f"{row['quality']:.2f}", f"{row['strict']:.2f}", f"{100 * row['recall']:.1f} %",
                  f"{100 * row['followed']:.1f} %",
                  f"{row['found']} of {row['tiles']}", f"{100 * row['waste']:.0f} %",
@@ -49,8 +49,10 @@ class Report:
         if not rows:
             return
         t90 = [self.ratio(row) for row in rows]
+        new = [row["new"][1] / self._base(row)["new"][1] for row in rows]
         clock = [median(self.clock(row)) for row in rows]
-        print(f"{mode}, {len(rows)} {kind} edits: T90 / uniform median {median(t90):.2f}, worst {max(t90):.2f}; on the clock "
+        print(f"{mode}, {len(rows)} {kind} edits: T90 / uniform median {median(t90):.2f}, worst {max(t90):.2f}; new samples only "
+              f"median {median(new):.2f}, worst {max(new):.2f}; on the clock "
               f"median {median(clock):.2f}, worst {max(clock):.2f}; quality median {median(r['quality'] for r in rows):.2f}, "
               f"strict {median(r['strict'] for r in rows):.2f}; recall least {100 * min(r['recall'] for r in rows):.1f} %, "
               f"median {100 * median(r['recall'] for r in rows):.1f} %; followed least "
@@ -70,7 +72,7 @@ class Report:
                     print(self._line(row))
                 print()
         for mode in self.modes[1:]:
-            rows = [row for row in self.rows if row["mode"] == mode]
+            rows = [row for row in self.rows if row["mode"] == mode and row["kind"] != CAMERA]
             self._summary(mode, [row for row in rows if row["local"]], "local")
             self._summary(mode, [row for row in rows if not row["local"]], "global")
 
@@ -94,6 +96,7 @@ class Report:
                     cells.append(f"{paths / row['pixels']:.2f}, {seconds:.2f} s / {paths0 / row['pixels']:.2f}, {seconds0:.2f} s")
                 cells.append(f"{self.area(row, where):.2f}, {self.area(row, where, 1):.2f}")
             print("| " + " | ".join(cells) + " |")
+        rows = [row for row in rows if row["kind"] != CAMERA]
         for kind, some in (("local", [r for r in rows if r["local"]]), ("global", [r for r in rows if not r["local"]])):
             if not some:
                 continue
@@ -124,13 +127,14 @@ class Report:
                  "followed", "waste", "found", "scouts", "surveyed", "reveal", "frame", "restarts"]
         with open(path, "w", newline="") as file:
             writer = csv.writer(file)
-            writer.writerow(names + ["t50_paths", "t90_paths", "t99_paths", "t50_seconds", "t90_seconds", "t99_seconds"] +
+            writer.writerow(names + ["t50_paths", "t90_paths", "t99_paths", "new50_paths",
+                                     "new90_paths", "new99_paths", "t50_seconds", "t90_seconds", "t99_seconds"] +
                             [f"{where}_{figure}_{unit}" for where in ("region", "frame") for figure in ("e25", "e10", "sum")
                              for unit in ("paths", "seconds")])
             for row in self.rows:
                 seconds = [median(turn[i] for turn in row["seconds"]) for i in range(3)]
                 shown = [value for where in row["shown"].values() for pair in (*where["until"], where["area"]) for value in pair]
-                writer.writerow([row[name] for name in names] + row["paths"] + seconds + shown)
+                writer.writerow([row[name] for name in names] + row["paths"] + row["new"] + seconds + shown)
 
     def draw(self, path):
         """One panel an edit: the share of the difference that is still old, against work; then the FLIP errors."""

@@ -36,16 +36,19 @@ def require_equal(scene, pictures):
 
 
 def row_of(scene, edit, mode, d, runs, pictures):
-    """The figures of one edit in one mode. `runs`: of all turns, the complete one first. `pictures`: before the edit, then
-    after 1, 2... all samples."""
+    """The figures of one edit in one mode. `runs`: of all turns; figures that are no times are of the first. `pictures`: before
+    the edit, then after 1, 2... all samples."""
     run = runs[0]
     energy = metrics.tile_energy(run.grid, d)
     region = float((d > 0).mean())
     row = {"scene": scene.name, "edit": edit, "mode": mode, "kind": run.kind, "region": region,
            "local": region < metrics.LOCAL, "restarts": run.restarts, "tiles": run.grid.count,
            "pixels": d.size, "energy": float(d.mean())}
-    row["seconds"] = [[seconds for _, seconds in metrics.times(r, energy)] for r in runs]
-    row["paths"] = [paths for paths, _ in metrics.times(run, energy)]
+    table = edit_display.error_table(run.grid, pictures, np.ones_like(d, bool))
+    shares = [metrics.refreshed(r, energy, lambda tile, samples: table[0][tile] <= table[samples][tile]) for r in runs]
+    row["seconds"] = [[seconds for _, seconds in metrics.times(r, share)] for r, share in zip(runs, shares)]
+    row["paths"] = [paths for paths, _ in metrics.times(run, shares[0])]
+    row["new"] = [paths for paths, _ in metrics.times(run, metrics.refreshed(run, energy, lambda *_: False))]
     row["quality"], row["strict"] = metrics.quality(run, energy)
     row["recall"], row["waste"] = metrics.recall(run.found, energy), metrics.waste(run.found, energy)
     row["followed"] = metrics.recall(run.foreseen, energy)
@@ -53,8 +56,7 @@ def row_of(scene, edit, mode, d, runs, pictures):
     row["surveyed"] = median(r.surveyed for r in runs)
     row["reveal"] = median(r.steps[0].seconds for r in runs)
     row["frame"] = median(metrics.frame(r)[1] for r in runs)
-    order = np.cumsum([energy[step.fresh].sum() for step in run.steps]) / energy.sum()
-    row["curve"] = [(step.paths, float(share)) for step, share in zip(run.steps, order)]
+    row["curve"] = [(step.paths, float(share)) for step, share in zip(run.steps, shares[0])]
     row["shown"] = edit_display.measure(run, pictures, d)
     return row
 
@@ -81,7 +83,7 @@ def measure(recorder, scene, options, processor):
     for turn in range(options.turns):
         for mode in modes:
             before = processor_seconds()
-            played, folder = recorder.play(scene, mode, options.few if turn else options.samples, turn)
+            played, folder = recorder.play(scene, mode, options.samples, turn)
             runs[mode].append(played)
             if turn == 0:
                 processor[mode] += processor_seconds() - before

@@ -34,8 +34,8 @@ class Step:
     paths: int  # traced since the edit, this batch and scouts included
     seconds: float  # since the edit
     sampled: list  # tiles that got their first sample, in order
-    fresh: list  # tiles that no longer show the picture before the edit
     shows: list  # (tile, samples in the mean on display) where that is new
+    keeps: list  # (tile, samples) where new samples exist, but the picture before the edit is still on display
 
 
 @dataclass
@@ -69,7 +69,7 @@ class _Reader:
             run = self.runs[-1]
             run.grid, run.restarts, run.foreseen = grid, run.restarts + 1, set()
             run.steps = [Step(step.paths, step.seconds, [], [], []) for step in run.steps]
-        self.done, self.shown = np.zeros(grid.count, int), np.zeros(grid.count, bool)
+        self.done = np.zeros(grid.count, int)
 
     def survey(self, line):
         self.paths += line["paths"]
@@ -82,7 +82,7 @@ class _Reader:
 
     def batch(self, line):
         run = self.runs[-1]
-        sampled, fresh, shows = [], [], []
+        sampled, shows, keeps = [], [], []
         for x, y, _, _, first, count, shown, foreseen in line["tiles"]:
             tile = run.grid.at(x, y)
             if first != self.done[tile]:
@@ -91,14 +91,10 @@ class _Reader:
                 sampled.append(tile)
                 if foreseen:
                     run.foreseen.add(tile)
-            if shown:
-                shows.append((tile, first + count))
-            if shown and not self.shown[tile]:
-                fresh.append(tile)
+            (shows if shown else keeps).append((tile, first + count))
             self.done[tile] = first + count
-            self.shown[tile] |= shown > 0
         self.paths += line["paths"]
-        run.steps.append(Step(self.paths, line["seconds"] - run.start, sampled, fresh, shows))
+        run.steps.append(Step(self.paths, line["seconds"] - run.start, sampled, shows, keeps))
 
 
 def read_log(path, samples, pictures):

@@ -7,6 +7,7 @@
 #include "renderer/trace/batch_size.h"
 
 using hipr::TileSchedule;
+using hipr::TileState;
 using hipr::gpu::TileWork;
 
 namespace {
@@ -104,13 +105,14 @@ TEST(BatchSize, FollowsTheClock) {
 
 namespace {
 
-/// Renders the next batch; `change` tells what the first samples of a tile change.
+/// Renders the next batch; `change` tells what the first samples of a tile change. Their noise is 1.
 template <class Change>
 uint32_t step(TileSchedule& schedule, uint32_t maxPaths, uint32_t samples, Change&& change) {
     const std::vector<TileWork>& work = schedule.next(maxPaths, samples);
     for (const TileWork& tile : work)
         if (tile.firstSample == 0)
-            schedule.measured(schedule.grid().at(tile.x, tile.y), change(schedule.grid().at(tile.x, tile.y)));
+            schedule.measured(schedule.grid().at(tile.x, tile.y), change(schedule.grid().at(tile.x, tile.y)),
+                              1.f);
     const uint32_t paths = schedule.pathCount();
     schedule.advance();
     return paths;
@@ -191,6 +193,46 @@ TEST(TileSchedule, UnchangedTilesKeepTheirPictureUntilTheNewOneIsAsGood) {
         EXPECT_TRUE(schedule.tiles()[0].keepsOld);
         step(schedule, 512, 8, [](uint32_t) { return 0.f; });
     }
+    EXPECT_FALSE(schedule.tiles()[0].keepsOld);
+    EXPECT_EQ(schedule.tiles()[0].age, 0u);
+}
+
+TEST(TileSchedule, ASmallChangeWaitsUntilItShowsThroughTheNoise) {
+    // 16 samples on display, the change times 4 is 0.4: noise 1 / sqrt(n) is below it, and the old picture's
+    // own noise, when 1 / n <= 0.16 + 1 / 16.
+    TileSchedule schedule = edited(16);
+    while (schedule.samplesDone() < 16) {
+        step(schedule, 256, 16, [](uint32_t tile) { return tile == 5 ? 0.1f : tile == 6 ? 0.3f : 0.f; });
+        const TileState &small = schedule.tiles()[5], &plain = schedule.tiles()[6],
+                        &none = schedule.tiles()[7];
+        EXPECT_EQ(small.keepsOld, small.samples > 0 && small.samples < 5) << small.samples;
+        EXPECT_FALSE(plain.keepsOld);
+        EXPECT_EQ(none.keepsOld, none.samples > 0 && none.samples < 16) << none.samples;
+    }
+}
+
+TEST(TileSchedule, SmallChangesAddUpFromEditToEdit) {
+    TileSchedule schedule = edited(16);
+    const auto little = [](uint32_t) { return 0.1f; };
+    for (int edit = 0; edit < 3; ++edit) {
+        if (edit) schedule.invalidate();
+        const std::vector<TileWork> work = schedule.next(256, 16);
+        ASSERT_EQ(work.size(), 1u);
+        EXPECT_EQ(work[0].flags, edit ? hipr::gpu::TILE_KEEPS_OLD : hipr::gpu::TILE_SAVES_OLD);
+        step(schedule, 256, 16, little);
+        const uint32_t tile = schedule.grid().at(work[0].x, work[0].y);
+        EXPECT_EQ(tile, 0u) << "the oldest picture";
+        EXPECT_EQ(schedule.tiles()[tile].keepsOld, edit < 2) << "1 > (4 * 0.1 * edits)^2 + 1 / 16";
+    }
+}
+
+TEST(TileSchedule, WithoutAMeasureNoOldPictureIsKept) {
+    TileSchedule schedule = edited(16);
+    step(schedule, 256, 16, [](uint32_t) { return 0.f; });
+    EXPECT_TRUE(schedule.tiles()[0].keepsOld);
+    schedule.invalidate(); // the camera moves, say
+    schedule.next(4096, 16);
+    schedule.advance();
     EXPECT_FALSE(schedule.tiles()[0].keepsOld);
     EXPECT_EQ(schedule.tiles()[0].age, 0u);
 }
