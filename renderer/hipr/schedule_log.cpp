@@ -1,6 +1,7 @@
 #include "renderer/hipr/schedule_log.h"
 
 #include <cstdlib>
+#include <ctime>
 
 namespace hipr {
 
@@ -11,7 +12,8 @@ ScheduleLog::ScheduleLog() : _start(std::chrono::steady_clock::now()) {
 
 void ScheduleLog::begin(const char* event) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - _start).count();
-    std::fprintf(_file.get(), "{\"event\": \"%s\", \"edit\": %u, \"seconds\": %.6f", event, _edit, seconds);
+    std::fprintf(_file.get(), "{\"event\": \"%s\", \"edit\": %u, \"seconds\": %.6f, \"processor\": %.6f",
+                 event, _edit, seconds, double(std::clock()) / CLOCKS_PER_SEC);
 }
 
 void ScheduleLog::end() {

@@ -1,8 +1,8 @@
 /// @file schedule_log.h
 /// A record of what was rendered when, for measurements: HIPR_SCHEDULE_LOG=FILE in the environment.
 ///
-/// One JSON object a line. Every line has `event`, `edit` (restarts so far) and `seconds` (since the log
-/// began).
+/// One JSON object a line. Every line has `event`, `edit` (restarts so far), `seconds` (since the log began)
+/// and `processor` (seconds of processor time of all threads so far).
 ///   restart  `kind`: picture, edit, camera, everything; `width`, `height`, `tileSize`
 ///   survey   `paths`: scouts of a batch
 ///   order    `tiles`: [x, y, priority] of discovered tiles; in mode paper first of the active ones alone
