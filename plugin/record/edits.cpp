@@ -10,6 +10,8 @@
 #include "pxr/base/tf/notice.h"
 #include "pxr/base/tf/stringUtils.h"
 #include "pxr/base/tf/weakBase.h"
+#include "pxr/usd/pcp/node.h"
+#include "pxr/usd/pcp/primIndex.h"
 #include "pxr/usd/sdf/attributeSpec.h"
 #include "pxr/usd/sdf/layerUtils.h"
 #include "pxr/usd/sdf/namespaceEdit.h"
@@ -74,6 +76,13 @@ std::string text(const SdfPath& path) {
     return "<" + path.GetString() + ">";
 }
 
+/// Whether an arc of a prim has an opinion about it, or one of the arcs behind it has.
+bool bringsIn(const PcpNodeRef& arc) {
+    if (arc.HasSpecs()) return true;
+    const auto [first, end] = arc.GetChildrenRange();
+    return std::any_of(first, end, bringsIn);
+}
+
 void Application::run() {
     if (!_edit.mute.empty() || !_edit.unmute.empty()) muteLayers();
     for (const auto& [from, to] : _edit.rename)
@@ -97,16 +106,14 @@ UsdPrim Application::prim(const SdfPath& path) const {
     return found;
 }
 
-/// Prims that a reference, a payload or a variant brings in would come back.
+/// Prims that an ancestor's reference, payload, inherit or variant brings in would come back. What the prim's
+/// own arcs bring in goes with them.
 void Application::requireOwn(const SdfPath& path, const char* verb) const {
-    for (const SdfPrimSpecHandle& spec : prim(path).GetPrimStack()) {
-        SdfPath owner = spec->GetPath();
-        while (owner.IsPrimVariantSelectionPath()) // its own variants go with it
-            owner = owner.GetParentPath();
-        if (!_stage->HasLocalLayer(spec->GetLayer()) || owner != path)
-            fail(text(path) + " is brought in by a reference, payload, inherit or variant and cannot be " +
-                 verb + "; deactivate it instead");
-    }
+    const auto [first, end] = prim(path).GetPrimIndex().GetRootNode().GetChildrenRange();
+    const auto fromAbove = [](const PcpNodeRef& arc) { return arc.IsDueToAncestor() && bringsIn(arc); };
+    if (std::any_of(first, end, fromAbove))
+        fail(text(path) + " is brought in by a reference, payload, inherit or variant and cannot be " + verb +
+             "; deactivate it instead");
 }
 
 std::string Application::findLayer(const std::string& identifier) const {

@@ -272,6 +272,19 @@ TEST_F(Edits, RenamedPrimsKeepWhatPointsAtThem) {
     EXPECT_EQ(value<double>("/World/Orb.fromSub"), 3);
 }
 
+TEST_F(Edits, PrimsTakeAlongWhatTheyBringInThemselves) {
+    apply(usda("class \"_Kind\" { int kind = 1 \n def \"Part\" {} }"
+               "over \"World\" { def \"Heir\" (inherits = </_Kind>) {} }"));
+    EXPECT_TRUE(apply(R"({"rename": {"/World/Heir": "/World/Son"}})"));
+    EXPECT_FALSE(prim("/World/Heir"));
+    EXPECT_EQ(value<int>("/World/Son.kind"), 1);
+    EXPECT_THAT(complaint(R"({"remove": ["/World/Son/Part"]})"), HasSubstr("deactivate it instead"));
+    EXPECT_TRUE(apply(R"({"remove": ["/World/Son", "/World/Borrowed"]})"));
+    EXPECT_FALSE(prim("/World/Son"));
+    EXPECT_FALSE(prim("/World/Borrowed"));
+    EXPECT_TRUE(prim("/_Kind/Part"));
+}
+
 TEST_F(Edits, PathsThatCannotBeEditedAreNamed) {
     EXPECT_THAT(complaint(R"({"name": "x", "remove": ["/Nothing"]})"),
                 AllOf(HasSubstr("edit 1 'x'"), HasSubstr("</Nothing>")));
