@@ -35,15 +35,20 @@ void replaceFirstSample(TraceRecord trace, uint pixel, vec3 radiance) {
 
 // Looks at the picture on display before a pixel's sample 0 takes its place in the film.
 void retire(TraceRecord trace, uint flags, uint pixel, vec3 radiance) {
+    if (flags == 0u) return;
+    OldPictureRef oldPicture = OldPictureRef(trace.oldPicture);
+    vec3 old;
     if ((flags & TILE_SAVES_OLD) != 0u) {
-        const FilmPixel old = FilmRef(trace.film).v[pixel];
-        const float weight = 1.0 / float(max(old.count, 1u));
-        OldPictureRef(trace.oldPicture).v[pixel] = OldPixel(old.color * weight, old.albedo * weight);
+        const FilmPixel shown = FilmRef(trace.film).v[pixel];
+        const float weight = 1.0 / float(max(shown.count, 1u));
+        oldPicture.v[pixel] = OldPixel(shown.color * weight, shown.albedo * weight);
+        old = shown.color.rgb * weight;
+    } else {
+        old = oldPicture.v[pixel].color.rgb;
     }
-    if (trace.changeScale > 0.0 && flags != 0u) {
-        const uint noise = changeSteps(trace, radiance, OldPictureRef(trace.oldPicture).v[pixel].color.rgb);
-        if (noise > 0u) atomicAdd(TileChangeRef(trace.tileChanges).v[gl_WorkGroupID.y].noise, noise);
-    }
+    if (trace.changeScale == 0.0) return;
+    const uint noise = changeSteps(trace, radiance, old);
+    if (noise > 0u) atomicAdd(TileChangeRef(trace.tileChanges).v[gl_WorkGroupID.y].noise, noise);
 }
 
 void main() {
