@@ -24,16 +24,9 @@ void Profile::add(const char* step, double seconds, double cpuSeconds) {
     row.cpuSeconds += cpuSeconds;
 }
 
-template <class F> void Steps::timed(const char* name, F&& work) {
-    if (_profile.enabled())
-        _profile.measure(name, work);
-    else
-        work();
-}
-
 void Steps::run(const char* name, Record record) {
     _pending.push_back(std::move(record));
-    if (_profile.enabled()) timed(name, [this] { flush(); });
+    if (_profile.enabled()) _profile.measure(name, [this] { flush(); });
 }
 
 void Steps::nearest(const char* name, const TraceQueue& queue) {
@@ -41,7 +34,7 @@ void Steps::nearest(const char* name, const TraceQueue& queue) {
         return run(name,
                    [this, queue](VkCommandBuffer cmd) { _traversal.recordNearest(cmd, _scene, queue); });
     flush();
-    timed(name, [&] { _traversal.nearest(queue); });
+    _profile.measure(name, [&] { _traversal.nearest(queue); });
 }
 
 void Steps::occluded(const char* name, const TraceQueue& queue) {
@@ -49,7 +42,7 @@ void Steps::occluded(const char* name, const TraceQueue& queue) {
         return run(name,
                    [this, queue](VkCommandBuffer cmd) { _traversal.recordOccluded(cmd, _scene, queue); });
     flush();
-    timed(name, [&] { _traversal.occluded(queue); });
+    _profile.measure(name, [&] { _traversal.occluded(queue); });
 }
 
 void Steps::flush() {

@@ -20,7 +20,7 @@ public:
     Profile();
     ~Profile();
     bool enabled() const { return _enabled; }
-    /// Runs `work` and adds its time to `step`.
+    /// Runs `work` and, if enabled, adds its time to `step`.
     template <class F> void measure(const char* step, F&& work) {
         if (!_enabled) return work();
         const auto start = std::chrono::steady_clock::now();
@@ -61,8 +61,6 @@ public:
     void flush();
 
 private:
-    template <class F> void timed(const char* name, F&& work);
-
     Device& _device;
     Traversal& _traversal;
     VkDeviceAddress _scene;
