@@ -116,6 +116,7 @@ void EditScheduler::startDiscovery() {
 }
 
 void EditScheduler::traced(bool done) {
+    if (_phase == Phase::Follow && _schedule.samplesDone() > 0) _phase = Phase::Idle; // all is measured
     if (_phase != Phase::Discover) return;
     if (!done) return _passes->discardWeights();
     _passes->takeWeights(_weights);

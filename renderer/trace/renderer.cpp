@@ -50,9 +50,10 @@ bool samePicture(const Settings& a, const Settings& b) {
     return c == b;
 }
 
-/// Batches after an edit that shows in less than this share of the tiles have this share of the pixels.
+/// The first batch after an edit that shows in less than this share of the tiles has this share of the
+/// pixels.
 constexpr double NarrowEdit = 0.5, EditBatchShare = 1.0 / 32;
-constexpr uint32_t SmallestEditBatch = 2048;
+constexpr uint32_t SmallestEditBatch = 2048, EditBatchDoublings = 5;
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -209,6 +210,7 @@ void RendererImpl::restart(Cause cause) {
     retireHits(cause);
     _setupPending = true;
     _restarted = Clock::now();
+    _batchesSinceRestart = 0;
     _firstHitsDone = _film.wantsFirstHits() ? 0 : _film.pixels();
     const char* names[] = {"picture", "edit", "camera", "everything"};
     _log.restart(names[int(cause)], grid);
@@ -303,13 +305,15 @@ bool RendererImpl::renderFirstHits() {
     return true;
 }
 
-/// Paths of the next batch. Small while a few discovered tiles wait for their first sample: what matters most
-/// shows soon, and its samples tell where to go on.
+/// Paths of the next batch. Small at first while a few discovered tiles wait for their first sample: what
+/// matters most shows soon, and its samples tell where to go on. Each is twice as large as the one before,
+/// for small batches fill a device badly, and where an edit goes on and on, order matters less and less.
 uint32_t RendererImpl::samplePaths() const {
     const bool fewWait = !_schedule.discoveredRefreshed() &&
                          _schedule.discoveredTiles() < NarrowEdit * _schedule.grid().count();
     const uint32_t some = std::max(SmallestEditBatch, uint32_t(EditBatchShare * double(_film.pixels())));
-    return fewWait ? std::min(batchPaths(), some) : batchPaths();
+    return fewWait ? std::min(batchPaths(), some << std::min(_batchesSinceRestart, EditBatchDoublings))
+                   : batchPaths();
 }
 
 bool RendererImpl::renderSamples() {
@@ -321,6 +325,7 @@ bool RendererImpl::renderSamples() {
         const bool done =
             _tracer.trace(_scene.traversal(), tiles, paths, _cancel, _edits.discovery(), _edits.changes());
         if (!done) return _edits.traced(false), false;
+        ++_batchesSinceRestart;
         _edits.measured(tiles);
         _schedule.advance();
         _log.batch(tiles, paths, _schedule);

@@ -79,6 +79,7 @@ private:
     BatchSize _batch;
     bool _failed = false, _setupPending = true, _nonFiniteReported = false, _cameraReported = false;
     Clock::time_point _restarted;
+    uint32_t _batchesSinceRestart = 0;
     uint64_t _firstHitsDone = 0; ///< pixels
     mutable std::mutex _progressMutex;
     Progress _progress;
