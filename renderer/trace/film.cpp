@@ -46,7 +46,8 @@ void FilmBuffers::setDesc(const FilmDesc& desc) {
 
 void FilmBuffers::clear() {
     _width = _height = 0;
-    _sums = {}, _oldPicture = {}, _firstSamples = {}, _visibility = {}, _previousHits = {}, _targets = {};
+    _sums = {}, _oldPicture = {}, _firstSamples = {}, _visibility = {}, _previousHits = {}, _depths = {},
+    _targets = {};
     _seen = {}, _seenAfter = {}, _sources = {};
     _firstHits.clear();
     _hasPrevious = false;
@@ -77,15 +78,22 @@ void FilmBuffers::allocate() {
 }
 
 void FilmBuffers::createHits() {
-    const auto create = [&](Buffer& buffer, bool wanted) {
+    const auto create = [&](Buffer& buffer, bool wanted, size_t stride) {
         if (!wanted || pixels() == 0)
             buffer = {};
         else if (!buffer)
-            buffer =
-                _device.createBuffer(pixels() * sizeof(gpu::VisibilityRecord), MemoryUse::Device, "Film");
+            buffer = _device.createBuffer(pixels() * stride, MemoryUse::Device, "Film");
     };
-    create(_visibility, wantsFirstHits());
-    create(_previousHits, _keepsHits);
+    create(_visibility, wantsFirstHits(), sizeof(gpu::VisibilityRecord));
+    create(_previousHits, _keepsHits, sizeof(gpu::VisibilityRecord));
+    create(_depths, _keepsDepths, sizeof(float));
+}
+
+bool FilmBuffers::keepDepths(bool keep) {
+    if (keep == _keepsDepths) return false;
+    _keepsDepths = keep;
+    createHits();
+    return keep;
 }
 
 void FilmBuffers::createPictures() {
@@ -144,6 +152,7 @@ void FilmBuffers::describe(gpu::TraceRecord& record) const {
     record.firstSamples = _firstSamples ? _firstSamples.address() : 0;
     record.seen = _seen ? _seen.address() : 0;
     record.visibility = _visibility ? _visibility.address() : 0;
+    record.opaqueDepths = depths();
     record.aovs = _targets ? _targets.address() : 0;
     record.aovCount = uint32_t(_firstHits.size());
     record.width = _width;

@@ -28,7 +28,7 @@ public:
     uint32_t height() const { return _height; }
     uint64_t pixels() const { return uint64_t(_width) * _height; }
     /// Whether first hits are to be found: an AOV shows them, or discovery needs them.
-    bool wantsFirstHits() const { return !_firstHits.empty() || _keepsHits; }
+    bool wantsFirstHits() const { return !_firstHits.empty() || _keepsHits || _keepsDepths; }
 
     /// Whether first hits are kept as well as shown, those of the scene before the last edit too. Returns
     /// whether they have to be found anew.
@@ -37,6 +37,11 @@ public:
     void retireHits();
     /// Forgets those before the edit: the picture is of another view.
     void dropPreviousHits() { _hasPrevious = false; }
+    /// Whether the depths of first hits are kept, for what is drawn over the picture. Returns whether first
+    /// hits have to be found anew.
+    bool keepDepths(bool keep);
+    /// gpu::TraceRecord::opaqueDepths, or 0.
+    VkDeviceAddress depths() const { return _depths ? _depths.address() : 0; }
     /// Address of the gpu::VisibilityRecords from before the edit, or 0.
     VkDeviceAddress previousHits() const { return _hasPrevious ? _previousHits.address() : 0; }
 
@@ -71,9 +76,9 @@ private:
     NameTable& _names;
     FilmDesc _desc; ///< as asked for
     uint32_t _width = 0, _height = 0;
-    Buffer _sums, _oldPicture, _firstSamples, _visibility, _previousHits, _targets;
+    Buffer _sums, _oldPicture, _firstSamples, _visibility, _previousHits, _depths, _targets;
     Buffer _seen, _seenAfter, _sources;
-    bool _keepsHits = false, _hasPrevious = false, _keepsPictures = false;
+    bool _keepsHits = false, _keepsDepths = false, _hasPrevious = false, _keepsPictures = false;
     std::vector<FirstHitAov> _firstHits;
 };
 

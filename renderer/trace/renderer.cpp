@@ -30,26 +30,6 @@ uint32_t choiceIndex(const char* setting, const std::string& value) {
     return 0;
 }
 
-/// Whether a picture under way with settings `a` goes on under `b`.
-bool samePicture(const Settings& a, const Settings& b) {
-    Settings c = a;
-    c.samples = b.samples;
-    c.traversal = b.traversal; // all traversals report the same hits
-    c.mode = b.mode;           // what is rendered first is no part of the picture
-    c.tileSize = b.tileSize;
-    c.scoutRate = b.scoutRate;
-    c.floorShare = b.floorShare;
-    c.eps = b.eps;
-    c.weightSpecular = b.weightSpecular;
-    c.weightGlossy = b.weightGlossy;
-    c.weightDiffuse = b.weightDiffuse;
-    c.weightTransmission = b.weightTransmission;
-    c.weightDirect = b.weightDirect;
-    c.weightIndirect = b.weightIndirect;
-    c.weightCaustic = b.weightCaustic;
-    return c == b;
-}
-
 /// The first batch after an edit that shows in less than this share of the tiles has this share of the
 /// pixels.
 constexpr double NarrowEdit = 0.5, EditBatchShare = 1.0 / 32;
@@ -57,10 +37,6 @@ constexpr uint32_t SmallestEditBatch = 2048, EditBatchDoublings = 5;
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-ChangedSet settingChange() {
-    return {{{std::monostate(), Change::Setting}}};
 }
 
 bool anyCamera(const ChangedSet& changed) {
@@ -74,22 +50,11 @@ RendererImpl::RendererImpl(MachinePtr machine, const RendererOptions& options,
                            const RendererInternals& internals)
     : _machine(std::move(machine)), _device(_machine->device.get()), _internals(internals),
       _scene(*_device, options.assets), _film(*_device, _scene.names()), _tracer(_machine->tracer),
-      _edits(*_device, _scene, _film, _tracer, _schedule, _log), _batch(_tracer.capacity()) {
+      _edits(*_device, _scene, _film, _tracer, _schedule, _log), _splats(*_device),
+      _batch(_tracer.capacity()) {
     prepareMode();
     selectTraversal();
     _scene.commit();
-}
-
-/// Runs `work`. What escapes it ends the renderer's life with one message: false is all callers see from then
-/// on.
-template <class F> bool RendererImpl::guarded(F&& work) {
-    if (_failed) return false;
-    try {
-        return work();
-    } catch (const std::exception& e) {
-        fail(reasonOf(e));
-    }
-    return false;
 }
 
 void RendererImpl::fail(const char* reason) {
@@ -108,26 +73,6 @@ void RendererImpl::finish() {
     _progress.failed = _failed;
 }
 
-void RendererImpl::selectTraversal() {
-    if (_settings.traversal == _traversalInUse) return;
-    TraversalKind kind = defaultTraversal(*_device);
-    if (_settings.traversal == "host") kind = TraversalKind::Host;
-    if (_settings.traversal == "embree") kind = TraversalKind::Embree;
-    if (_settings.traversal == "bvh") kind = TraversalKind::Bvh;
-    if (_settings.traversal == "rayquery") kind = TraversalKind::RayQuery;
-    try {
-        _scene.setTraversal(createTraversal(kind, *_device));
-    } catch (const DeviceLost&) {
-        throw;
-    } catch (const std::runtime_error& e) {
-        if (_settings.traversal == "auto") throw;
-        _device->messages()(Severity::Error, "",
-                            std::string(e.what()) + "; choosing a traversal by device instead");
-        _scene.setTraversal(createTraversal(defaultTraversal(*_device), *_device));
-    }
-    _traversalInUse = _settings.traversal;
-}
-
 ChangedSet RendererImpl::commit(SceneEdit& edit) {
     ChangedSet changed;
     guarded([&] {
@@ -143,57 +88,11 @@ ChangedSet RendererImpl::commit(SceneEdit& edit) {
             moveCamera(before, regions);
         else if (traced)
             startSearch(changed, regions);
+        if (camera) viewSplats();
+        updateSplats();
         return true;
     });
     return changed;
-}
-
-ChangedSet RendererImpl::setFilm(const FilmDesc& film) {
-    ChangedSet changed;
-    guarded([&] {
-        if (film == _film.desc()) return true;
-        _film.setDesc(film);
-        restart(Cause::Picture);
-        changed = settingChange();
-        return true;
-    });
-    return changed;
-}
-
-ChangedSet RendererImpl::setSettings(const Settings& settings) {
-    ChangedSet changed;
-    guarded([&] {
-        const bool same = samePicture(_settings, settings);
-        if (settings.mode != _settings.mode) _edits.stop();
-        _settings = settings;
-        prepareMode();
-        _edits.prepare(settings);
-        if (_film.keepHits(EditScheduler::discovers(settings))) _firstHitsDone = 0;
-        const std::string traversal = _traversalInUse;
-        selectTraversal();
-        const bool options = _scene.setOptions(
-            {settings.enableSceneLights, settings.enableSceneMaterials, settings.domeLightCameraVisibility});
-        if (options || traversal != _traversalInUse) _scene.commit();
-        _setupPending = true;
-        _schedule.setFloor(settings.floorShare);
-        const bool tiles = tileSize() != _schedule.grid().tileSize;
-        if (tiles)
-            restart(Cause::Picture);
-        else if (!same)
-            restart(Cause::Everything);
-        std::lock_guard<std::mutex> lock(_progressMutex);
-        _progress.samplesTotal = uint32_t(settings.samples);
-        if (tiles || !same) changed = settingChange();
-        return true;
-    });
-    return changed;
-}
-
-uint32_t RendererImpl::tileSize() const {
-    if (_internals.tileSize) return _internals.tileSize;
-    const bool automatic = _settings.tileSize == "auto";
-    return automatic ? automaticTileSize(_film.width(), _film.height())
-                     : uint32_t(std::stoul(_settings.tileSize));
 }
 
 void RendererImpl::restart(Cause cause) {
@@ -273,7 +172,10 @@ bool RendererImpl::renderBatch() {
         if (!_tracer.ready(std::chrono::milliseconds(50))) return true;
         if (!_edits.ready(std::chrono::milliseconds(50))) return true;
         if (_schedule.everythingShown() && !readyToMove(std::chrono::milliseconds(50))) return true;
-        if (_edits.wantsFirstHits() && !firstHitsDone()) return renderFirstHits();
+        if (_splats.pending() && !_splats.ready(std::chrono::milliseconds(50))) return true;
+        const bool depthsMissing = _edits.wantsFirstHits() || (_splats.pending() && !_splatDepths);
+        if (depthsMissing && !firstHitsDone()) return renderFirstHits();
+        if (_splats.pending()) return renderSplats();
         if (_edits.searching()) return search();
         const bool sampled = _schedule.samplesDone() >= uint32_t(_settings.samples);
         const bool firstHits = !firstHitsDone() && (sampled || _schedule.discoveredRefreshed());
@@ -298,6 +200,10 @@ bool RendererImpl::renderFirstHits() {
     const uint32_t pixels = uint32_t(std::min<uint64_t>(_batch.paths(), _film.pixels() - _firstHitsDone));
     if (!_tracer.findFirstHits(_scene.traversal(), uint32_t(_firstHitsDone), pixels, _cancel)) return false;
     _firstHitsDone += pixels;
+    if (firstHitsDone() && _film.depths()) {
+        _splatDepths = true;
+        _splats.setDepths(_film.depths());
+    }
     count(0, secondsSince(start));
     if (!_edits.wantsFirstHits()) return true;
     std::lock_guard<std::mutex> lock(_progressMutex);
@@ -333,7 +239,7 @@ bool RendererImpl::renderSamples() {
         _batch.report(paths, secondsSince(start));
     }
     count(paths, secondsSince(start));
-    return _schedule.samplesDone() < samples || !firstHitsDone();
+    return !complete();
 }
 
 void RendererImpl::count(uint32_t paths, double seconds) {
@@ -358,7 +264,7 @@ void RendererImpl::count(uint32_t paths, double seconds) {
     _progress.pictureShown = _schedule.everythingShown();
     _progress.firstHitsDone = firstHitsDone();
     if (paths && _progress.firstRevealSeconds == 0) _progress.firstRevealSeconds = secondsSince(_restarted);
-    _progress.converged = _progress.samplesDone >= _progress.samplesTotal && firstHitsDone();
+    _progress.converged = complete();
 }
 
 Progress RendererImpl::progress() const {
@@ -368,7 +274,11 @@ Progress RendererImpl::progress() const {
 
 bool RendererImpl::readAov(const AovRequest& aov, void* dst, size_t words) {
     return guarded([&] {
-        if (!isTileAov(aov.kind)) return _film.read(aov, _schedule, dst, words);
+        if (!isTileAov(aov.kind)) {
+            if (!_film.read(aov, _schedule, dst, words)) return false;
+            _splats.blend(aov, dst);
+            return true;
+        }
         if (!_film.holds(aov) || words != _film.pixels()) return false;
         fillTileAov(aov.kind, _schedule, static_cast<uint32_t*>(dst));
         return true;
@@ -378,6 +288,7 @@ bool RendererImpl::readAov(const AovRequest& aov, void* dst, size_t words) {
 MemoryReport RendererImpl::memory() const {
     MemoryReport report = _device->memory();
     report.rows.push_back({"Host: meshes", _scene.meshHostBytes()});
+    report.rows.push_back({"Host: splats", _scene.splatHostBytes()});
     report.rows.push_back({"Host: acceleration structures", _scene.traversalHostBytes()});
     return report;
 }

@@ -13,6 +13,7 @@
 #include "renderer/trace/edit_scheduler.h"
 #include "renderer/trace/film.h"
 #include "renderer/trace/machine.h"
+#include "renderer/trace/splat_layer.h"
 
 namespace hipr {
 
@@ -59,6 +60,11 @@ private:
     void selectTraversal();
     bool search();
     bool renderFirstHits();
+    void updateSplats();
+    void viewSplats();
+    void awaitSplats();
+    bool renderSplats();
+    bool complete() const;
     bool firstHitsDone() const { return _firstHitsDone >= _film.pixels(); }
     bool renderSamples();
     uint32_t batchPaths() const { return _internals.batchPaths ? _internals.batchPaths : _batch.paths(); }
@@ -76,14 +82,28 @@ private:
     ScheduleLog _log;
     PathTracer& _tracer;
     EditScheduler _edits;
+    SplatLayer _splats;
     BatchSize _batch;
     bool _failed = false, _setupPending = true, _nonFiniteReported = false, _cameraReported = false;
     Clock::time_point _restarted;
     uint32_t _batchesSinceRestart = 0;
     uint64_t _firstHitsDone = 0; ///< pixels
+    bool _splatDepths = false;   ///< first hits of this view have been complete: splats can be drawn
     mutable std::mutex _progressMutex;
     Progress _progress;
 };
+
+/// Runs `work`. What escapes it ends the renderer's life with one message: false is all callers see from then
+/// on.
+template <class F> bool RendererImpl::guarded(F&& work) {
+    if (_failed) return false;
+    try {
+        return work();
+    } catch (const std::exception& e) {
+        fail(reasonOf(e));
+    }
+    return false;
+}
 
 /// Renderer::create() for tests.
 std::unique_ptr<RendererImpl> createRenderer(const RendererOptions& options,

@@ -7,6 +7,7 @@
 #include "material/presence.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer WordRef { uint v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer DepthRef { float v[]; };
 
 void store(AovTarget target, uint pixel, float value) {
     WordRef(target.values).v[pixel] = floatBitsToUint(value);
@@ -84,6 +85,7 @@ void main() {
     }
     VisibilityRef(trace.visibility).v[pixel] =
         VisibilityRecord(hit.instance, hit.primitive, hit.u, hit.v, depth, object, objectInstance);
+    if (trace.opaqueDepths != 0ul) DepthRef(trace.opaqueDepths).v[pixel] = depth;
     if (trace.aovCount == 0u) return;
     ShadingPoint point;
     Surface surface;

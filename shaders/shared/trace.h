@@ -160,6 +160,7 @@ struct TraceRecord {
     uint64_t transmitHits;
     uint64_t film;           // FilmPixel[]
     uint64_t visibility;     // VisibilityRecord[]
+    uint64_t opaqueDepths;   // float[]: VisibilityRecord::cameraDepth, 0 where nothing is seen; or 0
     uint64_t oldPicture;     // OldPixel[]
     uint64_t firstSamples;   // vec3[]: radiance of each pixel's sample 0 in the picture on display
     uint64_t seen;           // SeenPoint[]: what each pixel on display shows, as its sample 0 saw it; or 0

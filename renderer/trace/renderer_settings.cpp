@@ -1,0 +1,106 @@
+// How RendererImpl takes settings and films.
+#include "renderer/trace/renderer_impl.h"
+
+namespace hipr {
+namespace {
+
+/// Whether a picture under way with settings `a` goes on under `b`.
+bool samePicture(const Settings& a, const Settings& b) {
+    Settings c = a;
+    c.samples = b.samples;
+    c.traversal = b.traversal; // all traversals report the same hits
+    c.mode = b.mode;           // what is rendered first is no part of the picture
+    c.tileSize = b.tileSize;
+    c.scoutRate = b.scoutRate;
+    c.floorShare = b.floorShare;
+    c.eps = b.eps;
+    c.weightSpecular = b.weightSpecular;
+    c.weightGlossy = b.weightGlossy;
+    c.weightDiffuse = b.weightDiffuse;
+    c.weightTransmission = b.weightTransmission;
+    c.weightDirect = b.weightDirect;
+    c.weightIndirect = b.weightIndirect;
+    c.weightCaustic = b.weightCaustic;
+    c.splatMode = b.splatMode; // splats are no part of the samples
+    c.splatAntialiasing = b.splatAntialiasing;
+    return c == b;
+}
+
+ChangedSet settingChange() {
+    return {{{std::monostate(), Change::Setting}}};
+}
+
+} // namespace
+
+void RendererImpl::selectTraversal() {
+    if (_settings.traversal == _traversalInUse) return;
+    TraversalKind kind = defaultTraversal(*_device);
+    if (_settings.traversal == "host") kind = TraversalKind::Host;
+    if (_settings.traversal == "embree") kind = TraversalKind::Embree;
+    if (_settings.traversal == "bvh") kind = TraversalKind::Bvh;
+    if (_settings.traversal == "rayquery") kind = TraversalKind::RayQuery;
+    try {
+        _scene.setTraversal(createTraversal(kind, *_device));
+    } catch (const DeviceLost&) {
+        throw;
+    } catch (const std::runtime_error& e) {
+        if (_settings.traversal == "auto") throw;
+        _device->messages()(Severity::Error, "",
+                            std::string(e.what()) + "; choosing a traversal by device instead");
+        _scene.setTraversal(createTraversal(defaultTraversal(*_device), *_device));
+    }
+    _traversalInUse = _settings.traversal;
+}
+
+ChangedSet RendererImpl::setFilm(const FilmDesc& film) {
+    ChangedSet changed;
+    guarded([&] {
+        if (film == _film.desc()) return true;
+        _film.setDesc(film);
+        restart(Cause::Picture);
+        viewSplats();
+        changed = settingChange();
+        return true;
+    });
+    return changed;
+}
+
+ChangedSet RendererImpl::setSettings(const Settings& settings) {
+    ChangedSet changed;
+    guarded([&] {
+        const bool same = samePicture(_settings, settings);
+        if (settings.mode != _settings.mode) _edits.stop();
+        _settings = settings;
+        prepareMode();
+        _edits.prepare(settings);
+        if (_film.keepHits(EditScheduler::discovers(settings))) _firstHitsDone = 0;
+        const std::string traversal = _traversalInUse;
+        selectTraversal();
+        const bool options = _scene.setOptions(
+            {settings.enableSceneLights, settings.enableSceneMaterials, settings.domeLightCameraVisibility});
+        if (options || traversal != _traversalInUse) _scene.commit();
+        _setupPending = true;
+        _splats.setSettings(settings);
+        awaitSplats();
+        _schedule.setFloor(settings.floorShare);
+        const bool tiles = tileSize() != _schedule.grid().tileSize;
+        if (tiles)
+            restart(Cause::Picture);
+        else if (!same)
+            restart(Cause::Everything);
+        std::lock_guard<std::mutex> lock(_progressMutex);
+        _progress.samplesTotal = uint32_t(settings.samples);
+        if (tiles || !same) changed = settingChange();
+        return true;
+    });
+    return changed;
+}
+
+uint32_t RendererImpl::tileSize() const {
+    if (_internals.tileSize) return _internals.tileSize;
+    const bool automatic = _settings.tileSize == "auto";
+    return automatic ? automaticTileSize(_film.width(), _film.height())
+                     : uint32_t(std::stoul(_settings.tileSize));
+}
+
+} // namespace hipr

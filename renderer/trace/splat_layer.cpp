@@ -1,0 +1,189 @@
+#include "renderer/trace/splat_layer.h"
+
+#include <algorithm>
+
+namespace hipr {
+namespace {
+
+/// The mode of a setting's value; names are those of splatModeName().
+SplatMode splatMode(const std::string& name) {
+    for (const SplatMode mode : {SplatMode::Flat16Aabb, SplatMode::Flat16Exact, SplatMode::Flat8Exact,
+                                 SplatMode::Higs8, SplatMode::Higs8Carry})
+        if (name == splatModeName(mode)) return mode;
+    return SplatMode::Automatic;
+}
+
+/// A point that the pixel's centre shows, at a camera depth.
+glm::vec3 pointAt(const gpu::CameraRecord& camera, glm::vec2 ndc, float depth) {
+    const glm::vec3 direction = camera.direction + ndc.x * camera.directionX + ndc.y * camera.directionY;
+    return camera.origin + ndc.x * camera.originX + ndc.y * camera.originY +
+           direction * (depth / glm::dot(direction, camera.forward));
+}
+
+} // namespace
+
+void SplatLayer::updateStores(const SplatTable& table) {
+    for (auto it = _stores.begin(); it != _stores.end();) {
+        const SplatSet* set = table.find(it->first);
+        it = set && set->revision == it->second.revision ? std::next(it) : _stores.erase(it);
+    }
+}
+
+void SplatLayer::setScene(const SplatTable& table, const std::vector<SplatPlacement>& placements) {
+    _failed = false;
+    updateStores(table);
+    std::vector<SplatInstance> instances;
+    for (const SplatPlacement& placement : placements) {
+        const SplatSet& set = *table.find(placement.splats);
+        Stored& stored = _stores[placement.splats];
+        if (stored.revision != set.revision) {
+            stored.revision = set.revision;
+            try {
+                stored.store = std::make_shared<SplatStore>(_device, *set.cloud);
+            } catch (const OutOfMemory& e) {
+                _device.messages()(Severity::Error, set.cloud->name,
+                                   std::string(e.what()) + "; its splats are not drawn");
+            }
+        }
+        if (stored.store && stored.store->size() > 0)
+            instances.push_back(
+                {stored.store, placement.objectToWorld, placement.primId, placement.instanceId});
+    }
+    const bool same = std::equal(instances.begin(), instances.end(), _instances.begin(), _instances.end(),
+                                 [](const SplatInstance& a, const SplatInstance& b) {
+                                     return a.store == b.store && a.objectToWorld == b.objectToWorld &&
+                                            a.primId == b.primId && a.instanceId == b.instanceId;
+                                 });
+    if (same) return;
+    _instances = std::move(instances);
+    _pending = true;
+    if (_instances.empty()) _drawn = false;
+    if (_pass) _pass->setInstances(_instances);
+}
+
+void SplatLayer::setView(const gpu::CameraRecord& camera, uint32_t width, uint32_t height) {
+    _view.camera = camera;
+    _view.width = width;
+    _view.height = height;
+    _pending = true;
+    if (_pass) _pass->setView(_view);
+}
+
+void SplatLayer::setSettings(const Settings& settings) {
+    const SplatMode mode = splatMode(settings.splatMode);
+    if (mode == _mode && settings.splatAntialiasing == _view.antialiased) return;
+    _mode = mode;
+    _view.antialiased = settings.splatAntialiasing;
+    _pending = true;
+    if (!_pass) return;
+    _pass->setMode(_mode);
+    _pass->setView(_view);
+}
+
+void SplatLayer::setDepths(VkDeviceAddress cameraDepths) {
+    _depths = cameraDepths;
+    _pending = true;
+    if (_pass) _pass->setDepthLimit(cameraDepths);
+}
+
+bool SplatLayer::ready(std::chrono::milliseconds patience) {
+    if (_pass) return true;
+    if (!_compiling.valid())
+        _compiling = std::async(std::launch::async, [this] { return std::make_unique<SplatPass>(_device); });
+    if (_compiling.wait_for(patience) != std::future_status::ready) return false;
+    _pass = _compiling.get();
+    _pass->setMode(_mode);
+    _pass->setView(_view);
+    _pass->setInstances(_instances);
+    _pass->setDepthLimit(_depths);
+    return true;
+}
+
+bool SplatLayer::render(const std::atomic<bool>& cancel) {
+    try {
+        if (!_pass->render(&cancel)) return false;
+        _pixels.resize(size_t(_view.width) * _view.height);
+        _device.download(_pass->pixels(), _pixels.data(), _pixels.size() * sizeof(gpu::SplatPixel));
+        _drawn = true;
+    } catch (const std::bad_alloc& e) {
+        fail(reasonOf(e));
+    }
+    _pending = false;
+    return true;
+}
+
+void SplatLayer::fail(const char* reason) {
+    _failed = true;
+    _drawn = false;
+    _device.messages()(Severity::Error, "", std::string(reason) + "; the picture is drawn without splats");
+}
+
+void SplatLayer::blend(const AovRequest& aov, void* values) const {
+    if (!_drawn) return;
+    const auto replace = [&](auto word) {
+        for (size_t i = 0; i < _pixels.size(); ++i)
+            if (_pixels[i].splat != gpu::NO_SPLAT) word(_pixels[i], i);
+    };
+    int* ints = static_cast<int*>(values);
+    glm::vec3* vectors = static_cast<glm::vec3*>(values);
+    switch (aov.kind) {
+    case AovKind::Color:
+        return blendColor(static_cast<float*>(values));
+    case AovKind::Albedo:
+        return blendAlbedo(static_cast<float*>(values));
+    case AovKind::Depth:
+    case AovKind::CameraDepth:
+        return blendDepth(aov.kind, static_cast<float*>(values));
+    case AovKind::PrimId:
+        return replace([&](const gpu::SplatPixel& pixel, size_t i) { ints[i] = pixel.primId; });
+    case AovKind::InstanceId:
+        return replace([&](const gpu::SplatPixel& pixel, size_t i) { ints[i] = pixel.instanceId; });
+    case AovKind::ElementId:
+        return replace([&](const gpu::SplatPixel& pixel, size_t i) { ints[i] = int(pixel.splat); });
+    case AovKind::Normal:
+    case AovKind::Neye:
+    case AovKind::Primvar: // splats have none
+        return replace([&](const gpu::SplatPixel&, size_t i) { vectors[i] = glm::vec3(0.f); });
+    default:
+        return; // of HiPR's tiles
+    }
+}
+
+void SplatLayer::blendColor(float* rgba) const {
+    for (size_t i = 0; i < _pixels.size(); ++i, rgba += 4) {
+        const gpu::SplatPixel& pixel = _pixels[i];
+        for (int c = 0; c < 3; ++c)
+            rgba[c] = pixel.color[c] + pixel.transmittance * rgba[c];
+        rgba[3] = 1.f - pixel.transmittance * (1.f - rgba[3]);
+    }
+}
+
+void SplatLayer::blendAlbedo(float* rgb) const {
+    for (size_t i = 0; i < _pixels.size(); ++i, rgb += 3)
+        for (int c = 0; c < 3; ++c)
+            rgb[c] = _pixels[i].color[c] + _pixels[i].transmittance * rgb[c];
+}
+
+void SplatLayer::blendDepth(AovKind kind, float* depths) const {
+    for (size_t i = 0; i < _pixels.size(); ++i) {
+        if (_pixels[i].splat == gpu::NO_SPLAT) continue;
+        const glm::vec2 film = glm::vec2(i % _view.width, i / _view.width) + 0.5f;
+        const glm::vec2 ndc = 2.f * film / glm::vec2(_view.width, _view.height) - 1.f;
+        const glm::vec4 point(pointAt(_view.camera, ndc, _pixels[i].depth), 1.f);
+        if (kind == AovKind::CameraDepth) {
+            depths[i] = -(_view.camera.worldToView * point).z;
+        } else {
+            const glm::vec4 clip = _view.camera.worldToClip * point;
+            depths[i] = glm::clamp(0.5f * clip.z / clip.w + 0.5f, 0.f, 1.f);
+        }
+    }
+}
+
+uint64_t SplatLayer::bytes() const {
+    uint64_t bytes = 0;
+    for (const auto& [id, stored] : _stores)
+        bytes += stored.store ? stored.store->bytes() : 0;
+    return bytes;
+}
+
+} // namespace hipr

@@ -1,0 +1,73 @@
+/// @file splat_layer.h
+/// The splats of the scene in the picture: drawn once per view, blended over the path-traced picture when it
+/// is read.
+///
+/// Splats lie over what paths see through a pixel's centre: those in front of its first hit add their colour
+/// and let the picture behind shine through by their transmittance; those behind it are not seen. Depth and
+/// ids come from the splat at which the transmittance falls below 1/2, where there is one.
+#pragma once
+
+#include <future>
+#include <map>
+#include <memory>
+
+#include "renderer/api/film.h"
+#include "renderer/api/settings.h"
+#include "renderer/higs/splat_pass.h"
+#include "renderer/scene/splat_table.h"
+
+namespace hipr {
+
+class SplatLayer {
+public:
+    explicit SplatLayer(Device& device) : _device(device) {}
+
+    /// What stands in the scene; draws again what has changed.
+    void setScene(const SplatTable& table, const std::vector<SplatPlacement>& placements);
+    void setView(const gpu::CameraRecord& camera, uint32_t width, uint32_t height);
+    void setSettings(const Settings& settings);
+    /// Depths of what is opaque: see SplatPass::setDepthLimit(). To be called again when they have changed.
+    void setDepths(VkDeviceAddress cameraDepths);
+
+    /// Whether there are splats to draw.
+    bool present() const { return !_instances.empty() && !_failed; }
+    /// Whether all is compiled; waits up to `patience` for it.
+    bool ready(std::chrono::milliseconds patience);
+    /// Whether render() has work.
+    bool pending() const { return present() && _pending; }
+    /// Draws; false when `cancel` was seen. Memory that is exhausted gives one message and a picture without
+    /// splats.
+    bool render(const std::atomic<bool>& cancel);
+
+    /// Puts the splats over what the film holds of an AOV of `width * height` pixels.
+    void blend(const AovRequest& aov, void* values) const;
+
+    /// Device memory of the clouds.
+    uint64_t bytes() const;
+    /// Of the last render().
+    const SplatStatistics* statistics() const { return _pass ? &_pass->statistics() : nullptr; }
+
+private:
+    struct Stored {
+        uint32_t revision = 0;
+        std::shared_ptr<const SplatStore> store; ///< null: there was no memory for it
+    };
+    void updateStores(const SplatTable& table);
+    void blendColor(float* rgba) const;
+    void blendAlbedo(float* rgb) const;
+    void blendDepth(AovKind kind, float* depths) const;
+    void fail(const char* reason);
+
+    Device& _device;
+    std::map<SplatsId, Stored> _stores;
+    std::vector<SplatInstance> _instances;
+    SplatView _view;
+    SplatMode _mode = SplatMode::Automatic;
+    VkDeviceAddress _depths = 0;
+    std::future<std::unique_ptr<SplatPass>> _compiling;
+    std::unique_ptr<SplatPass> _pass;
+    std::vector<gpu::SplatPixel> _pixels; ///< as drawn, for the host
+    bool _pending = false, _failed = false, _drawn = false;
+};
+
+} // namespace hipr

@@ -1,0 +1,186 @@
+// Splats in the picture: over, behind and between what is path traced, and through edits.
+#include <gtest/gtest.h>
+
+#include "testenv/render/scene_kit.h"
+
+using namespace hipr;
+using namespace hipr::test;
+
+namespace {
+
+constexpr uint32_t Size = 64;
+const std::vector<AovRequest> Aovs{{AovKind::Color, {}},    {AovKind::Depth, {}},  {AovKind::CameraDepth, {}},
+                                   {AovKind::PrimId, {}},   {AovKind::Normal, {}}, {AovKind::InstanceId, {}},
+                                   {AovKind::ElementId, {}}};
+
+/// A ball of one splat, dense in the middle.
+SplatCloud ball(glm::vec3 color, float scale = 0.2f, float opacity = 0.99f) {
+    SplatCloud cloud;
+    cloud.name = "/splats";
+    cloud.positions = {glm::vec3(0)};
+    cloud.scales = {glm::vec3(scale)};
+    cloud.opacities = {opacity};
+    cloud.coefficients = {(color - 0.5f) / 0.28209479177387814f};
+    return cloud;
+}
+
+/// Two matte squares, one behind the other, the left half of the nearer one cut away; seen from +z.
+class SplatStage : public Stage {
+public:
+    explicit SplatStage(uint32_t samples = 4) : Stage(withSamples(samples)) {
+        LightDesc sun;
+        sun.kind = LightKind::Distant;
+        add(sun);
+        back = add(quadMesh(), matte({0.2f, 0.4f, 0.8f}), {scaled(translation(0, 0, -2), 8)});
+        front = add(quadMesh(), matte({0.8f, 0.4f, 0.2f}), {scaled(translation(4, 0, 0), 8)});
+        look({0, 0, 6});
+        film(Size, Size, Aovs);
+    }
+    static Settings withSamples(uint32_t samples) {
+        Settings settings;
+        settings.samples = int(samples);
+        return settings;
+    }
+    static glm::mat4x3 scaled(glm::mat4x3 m, float by) {
+        for (int c = 0; c < 3; ++c)
+            m[c] *= by;
+        return m;
+    }
+    void look(glm::dvec3 eye) { edit.setCamera(lookAt(eye, {0, 0, 0})); }
+    void addSplats(const SplatCloud& cloud, std::vector<glm::mat4x3> transforms) {
+        splats = renderer->newId<SplatsId>();
+        object = renderer->newId<ObjectId>();
+        edit.setSplats(splats, std::make_shared<SplatCloud>(cloud));
+        ObjectDesc desc;
+        desc.name = cloud.name;
+        desc.splats = splats;
+        desc.primId = 77;
+        edit.setObject(object, desc);
+        place(transforms);
+    }
+    void place(std::vector<glm::mat4x3> transforms) {
+        InstancesDesc instances;
+        instances.transforms = std::move(transforms);
+        edit.setInstances(object, instances);
+    }
+    /// The picture of the same scene, made at once.
+    template <class Build> static ColorPicture fresh(Build&& build) {
+        SplatStage stage;
+        build(stage);
+        stage.render();
+        return stage.color();
+    }
+
+    ObjectId back, front, object;
+    SplatsId splats;
+};
+
+const glm::vec3 Green(0.1f, 0.9f, 0.1f);
+
+} // namespace
+
+TEST(Splats, LieOverWhatIsBehindThemAndNotOverWhatIsInFront) {
+    const ColorPicture bare = SplatStage::fresh([](SplatStage&) {});
+    // Between the squares: seen beside the nearer one, hidden behind it.
+    const ColorPicture between = SplatStage::fresh(
+        [](SplatStage& stage) { stage.addSplats(ball(Green, 0.5f), {translation(0, 0, -1)}); });
+    save(between, "splat_between");
+    uint32_t covered = 0;
+    for (uint32_t y = 0; y < Size; ++y)
+        for (uint32_t x = 0; x < Size; ++x) {
+            if (x > Size / 2) {
+                EXPECT_EQ(between.at(x, y), bare.at(x, y)) << x << ' ' << y;
+            }
+            covered += between.at(x, y) != bare.at(x, y);
+        }
+    EXPECT_GT(covered, 50u);
+    EXPECT_NEAR(between.at(Size / 2 - 1, Size / 2).y,
+                0.99f * 0.9f + 0.01f * bare.at(Size / 2 - 1, Size / 2).y, 0.02f);
+
+    const ColorPicture behind = SplatStage::fresh(
+        [](SplatStage& stage) { stage.addSplats(ball(Green, 0.5f), {translation(0, 0, -3)}); });
+    EXPECT_TRUE(sameBits(behind, bare));
+
+    const ColorPicture ahead = SplatStage::fresh(
+        [](SplatStage& stage) { stage.addSplats(ball(Green, 0.5f), {translation(0, 0, 1)}); });
+    save(ahead, "splat_ahead");
+    EXPECT_NE(ahead.at(Size / 2 + 4, Size / 2), bare.at(Size / 2 + 4, Size / 2));
+    EXPECT_NEAR(ahead.at(Size / 2 + 4, Size / 2).y, ahead.at(Size / 2 - 5, Size / 2).y, 0.05f);
+}
+
+TEST(Splats, BlendByTheirTransmittance) {
+    const ColorPicture bare = SplatStage::fresh([](SplatStage&) {});
+    const ColorPicture thin = SplatStage::fresh(
+        [](SplatStage& stage) { stage.addSplats(ball(Green, 2.f, 0.25f), {translation(0, 0, 2)}); });
+    const glm::vec4 behind = bare.at(Size / 2, Size / 2), seen = thin.at(Size / 2, Size / 2);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(seen[c], 0.25f * Green[c] + 0.75f * behind[c], 2e-3f);
+    EXPECT_EQ(seen.w, 1.f);
+}
+
+TEST(Splats, HaveDepthAndIdsWhereTheyCover) {
+    SplatStage stage;
+    stage.addSplats(ball(Green, 0.3f), {translation(0, 0, 2), translation(0, 30, 2)});
+    stage.render();
+    const uint32_t middle = Size / 2;
+    EXPECT_EQ(stage.read<int>(AovKind::PrimId).at(middle, middle), 77);
+    EXPECT_EQ(stage.read<int>(AovKind::InstanceId).at(middle, middle), 0);
+    EXPECT_EQ(stage.read<int>(AovKind::ElementId).at(middle, middle), 0);
+    EXPECT_EQ(stage.read<glm::vec3>(AovKind::Normal).at(middle, middle), glm::vec3(0));
+    EXPECT_NEAR(stage.read<float>(AovKind::CameraDepth).at(middle, middle), 4.f, 1e-4f);
+    EXPECT_NE(stage.read<int>(AovKind::PrimId).at(2, 2), 77);
+    EXPECT_EQ(stage.read<glm::vec3>(AovKind::Normal).at(2, 2), glm::vec3(0, 0, 1));
+    // The depth of a mesh and of a splat at the same place are the same.
+    const float splat = stage.read<float>(AovKind::Depth).at(middle, middle);
+    stage.edit.removeObject(stage.object);
+    stage.add(quadMesh(), matte({0.5f, 0.5f, 0.5f}), {translation(0, 0, 2)});
+    stage.render();
+    EXPECT_NEAR(stage.read<float>(AovKind::Depth).at(middle, middle), splat, 1e-5f);
+}
+
+TEST(Splats, EditsOfThemKeepTheSamplesOfThePicture) {
+    SplatStage stage;
+    stage.addSplats(ball(Green), {translation(-1, 0, 1)});
+    stage.render();
+    const uint64_t paths = stage.renderer->progress().pathsTraced;
+    stage.place({translation(-1.5f, 0.3f, 1)});
+    stage.render();
+    EXPECT_EQ(stage.renderer->progress().pathsTraced, paths);
+    EXPECT_TRUE(sameBits(stage.color(), SplatStage::fresh([](SplatStage& other) {
+                             other.addSplats(ball(Green), {translation(-1.5f, 0.3f, 1)});
+                         })));
+    stage.edit.setSplats(stage.splats, std::make_shared<SplatCloud>(ball({1, 0, 1}, 0.4f)));
+    stage.render();
+    EXPECT_EQ(stage.renderer->progress().pathsTraced, paths);
+    EXPECT_TRUE(sameBits(stage.color(), SplatStage::fresh([](SplatStage& other) {
+                             other.addSplats(ball({1, 0, 1}, 0.4f), {translation(-1.5f, 0.3f, 1)});
+                         })));
+    stage.edit.removeObject(stage.object);
+    stage.render();
+    EXPECT_EQ(stage.renderer->progress().pathsTraced, paths);
+    EXPECT_TRUE(sameBits(stage.color(), SplatStage::fresh([](SplatStage&) {})));
+}
+
+TEST(Splats, FollowMeshesAndCamera) {
+    SplatStage stage;
+    stage.addSplats(ball(Green, 0.5f), {translation(0, 0, -1)});
+    stage.render();
+    InstancesDesc moved;
+    moved.transforms = {SplatStage::scaled(translation(4, 0, -1.5f), 8)}; // behind the splats now
+    stage.edit.setInstances(stage.front, moved);
+    stage.render();
+    EXPECT_TRUE(sameBits(stage.color(), SplatStage::fresh([&](SplatStage& other) {
+                             other.addSplats(ball(Green, 0.5f), {translation(0, 0, -1)});
+                             other.edit.setInstances(other.front, moved);
+                         })));
+    stage.look({2, 1, 5});
+    stage.render();
+    EXPECT_TRUE(sameBits(stage.color(), SplatStage::fresh([&](SplatStage& other) {
+                             other.addSplats(ball(Green, 0.5f), {translation(0, 0, -1)});
+                             other.edit.setInstances(other.front, moved);
+                             other.look({2, 1, 5});
+                         })));
+    stage.film(Size, Size / 2, Aovs);
+    stage.render();
+    EXPECT_EQ(stage.read<int>(AovKind::PrimId).values.size(), size_t(Size) * Size / 2);
+}
