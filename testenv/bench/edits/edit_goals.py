@@ -2,7 +2,7 @@
 
 from statistics import median
 
-CAMERA = "camera"
+from schedule_log import CAMERA
 
 
 def goals(report, mode):

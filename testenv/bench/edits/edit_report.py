@@ -4,7 +4,8 @@ import csv
 import os
 from statistics import median
 
-from edit_goals import CAMERA, print_goals
+from edit_goals import print_goals
+from schedule_log import CAMERA
 
 HEAD = ("| edit | shows in | T50 | T90 | T99 | T90 / uniform | new only | on the clock | quality | strict | recall | followed | found | waste | "
         "scouts | survey | reveal |")
@@ -88,7 +89,7 @@ class Report:
         print(f"\nThe picture on display, {mode} and uniform: frames and seconds until its error is 25 % and 10 % of that at the "
               "edit\n(changed region, then whole frame), and its sum over work and time against uniform\n")
         print(DISPLAY_HEAD + "\n" + "|---" * (DISPLAY_HEAD.count("|") - 1) + "|")
-        rows = [row for row in self.rows if row["mode"] == mode]
+        rows = [row for row in self.rows if row["mode"] == mode and row["shown"]]
         for row in rows:
             base, cells = self._base(row)["shown"], [f"{row['scene']}: {row['edit']}"]
             for where, mine in row["shown"].items():
@@ -96,7 +97,6 @@ class Report:
                     cells.append(f"{paths / row['pixels']:.2f}, {seconds:.2f} s / {paths0 / row['pixels']:.2f}, {seconds0:.2f} s")
                 cells.append(f"{self.area(row, where):.2f}, {self.area(row, where, 1):.2f}")
             print("| " + " | ".join(cells) + " |")
-        rows = [row for row in rows if row["kind"] != CAMERA]
         for kind, some in (("local", [r for r in rows if r["local"]]), ("global", [r for r in rows if not r["local"]])):
             if not some:
                 continue
@@ -133,7 +133,7 @@ class Report:
                              for unit in ("paths", "seconds")])
             for row in self.rows:
                 seconds = [median(turn[i] for turn in row["seconds"]) for i in range(3)]
-                shown = [value for where in row["shown"].values() for pair in (*where["until"], where["area"]) for value in pair]
+                shown = [value for where in (row["shown"] or {}).values() for pair in (*where["until"], where["area"]) for value in pair]
                 writer.writerow([row[name] for name in names] + row["paths"] + row["new"] + seconds + shown)
 
     def draw(self, path):
@@ -150,10 +150,14 @@ class Report:
             for row in (r for r in self.rows if (r["scene"], r["edit"]) == key):
                 work = [0] + [paths / row["pixels"] for paths, _ in row["curve"]]
                 lines = axis.step(work, [1] + [1 - share for _, share in row["curve"]], where="post", label=row["mode"])
+                if not row["shown"]:
+                    continue
                 error = [1] + [error for _, _, error in row["shown"]["region"]["curve"]]
                 axis.step(work, error, where="post", color=lines[0].get_color(), linestyle=":")
             axis.set_title(": ".join(key), fontsize=8)
             axis.set_xlim(0, 2.5)
+        for axis in axes.flat[len(edits) + len(self.flip):]:
+            axis.set_visible(False)
         for axis, row in zip(axes.flat[len(edits):], self.flip):
             for mode, points in row["curves"].items():
                 axis.step(*zip(*points), where="post", label=mode)
@@ -161,7 +165,6 @@ class Report:
             axis.set_ylim(bottom=0)
         axes.flat[0].legend(fontsize=8)
         figure.supxlabel("work: frames of one sample")
-        figure.supylabel("share of the difference still to be refreshed; dotted: error on display; FLIP error of the changed "
-                         "region")
+        figure.supylabel("still to be refreshed; dotted: error on display")
         figure.tight_layout()
         figure.savefig(path, dpi=80)

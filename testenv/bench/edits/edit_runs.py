@@ -9,6 +9,7 @@ import OpenEXR
 
 import edit_display
 import edit_metrics as metrics
+from schedule_log import CAMERA
 
 
 def read_pictures(folder, count):
@@ -57,7 +58,8 @@ def row_of(scene, edit, mode, d, runs, pictures):
     row["reveal"] = median(r.steps[0].seconds for r in runs)
     row["frame"] = median(metrics.frame(r)[1] for r in runs)
     row["curve"] = [(step.paths, float(share)) for step, share in zip(run.steps, shares[0])]
-    row["shown"] = edit_display.measure(run, pictures, d)
+    # After a move of the camera the old picture is carried along: what is on display does not follow from these pictures.
+    row["shown"] = None if run.kind == CAMERA else edit_display.measure(run, pictures, d)
     return row
 
 

@@ -6,6 +6,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 
+CAMERA = "camera"  # kind of a run: the view moved
+
+
 @dataclass
 class Grid:
     width: int
