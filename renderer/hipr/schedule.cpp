@@ -103,11 +103,11 @@ void TileSchedule::changeView() {
         state.comparable = false;
 }
 
-void TileSchedule::carried(const std::vector<float>& errors) {
+void TileSchedule::carried(const std::vector<float>& errors, float everywhere) {
     for (uint32_t tile = 0; tile < _states.size(); ++tile) {
         TileState& state = _states[tile];
-        state.keepsOld = false;
-        state.shown = std::min(state.shown, 1u);
+        state.change = (state.keepsOld ? state.change : 0.f) + errors[tile] + everywhere;
+        state.keepsOld = false; // it is in the film
         discover(tile, errors[tile]);
     }
     sort(false);
@@ -149,6 +149,11 @@ void TileSchedule::measured(uint32_t tile, float change, float noise) {
     state.measured = true;
     state.change += change;
     state.noise = noise;
+}
+
+void TileSchedule::compared(uint32_t tile, float noise) {
+    _states[tile].measured = true;
+    _states[tile].noise = noise;
 }
 
 /// Whether the old mean is nearer to the truth than that of the new samples, as far as is known: the noise

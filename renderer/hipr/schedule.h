@@ -80,9 +80,12 @@ public:
     void keepPictures(bool keep);
     /// The view changed: samples from before cannot be compared with new ones.
     void changeView();
-    /// After invalidate(): the picture on display was carried to another camera, and is now worth one sample
-    /// a pixel. `errors`: what is wrong with each tile; they become the priorities.
-    void carried(const std::vector<float>& errors);
+    /// After invalidate(): the picture on display was carried to another camera. `errors`: what became wrong
+    /// in each tile by that, in radiance; they become the priorities. `everywhere`: in all tiles alike.
+    void carried(const std::vector<float>& errors, float everywhere);
+    /// After carried(): how far a tile's first sample is from the mean on display. As measured(), but the
+    /// change is as it was estimated.
+    void compared(uint32_t tile, float noise);
 
     /// Adds to what is believed of the edit: a tile that was not measured keeps its greatest priority. Takes
     /// effect with the next sort() or advance().

@@ -22,7 +22,7 @@ TileSums sums(const gpu::CarriedRow* rows, uint32_t count) {
 
 } // namespace
 
-std::vector<float> staleRadiance(const TileGrid& grid, const std::vector<gpu::CarriedRow>& rows) {
+Staleness staleness(const TileGrid& grid, const std::vector<gpu::CarriedRow>& rows) {
     std::vector<TileSums> tiles;
     double radiance = 0;
     for (uint32_t tile = 0; tile < grid.count(); ++tile) {
@@ -32,13 +32,15 @@ std::vector<float> staleRadiance(const TileGrid& grid, const std::vector<gpu::Ca
     // Nobody knows what came into sight: of the picture's brightness, or of that of the surroundings, of
     // which the guess was made.
     const double mean = radiance / (double(grid.width) * grid.height);
-    std::vector<float> errors;
+    Staleness staleness;
+    staleness.meanRadiance = float(mean);
     for (uint32_t tile = 0; tile < grid.count(); ++tile) {
         const double pixels = grid.pixels(tile), share = tiles[tile].uncovered / pixels;
         const double error = tiles[tile].stale / pixels + share * (mean + tiles[tile].radiance / pixels);
-        errors.push_back(tiles[tile].uncovered > 0 || error > LeastError * mean ? float(error) : 0.f);
+        staleness.errors.push_back(tiles[tile].uncovered > 0 || error > LeastError * mean ? float(error)
+                                                                                          : 0.f);
     }
-    return errors;
+    return staleness;
 }
 
 } // namespace hipr

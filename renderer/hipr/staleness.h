@@ -9,8 +9,14 @@
 
 namespace hipr {
 
-/// By tile, the mean error of the picture that was carried to another camera, as estimated; the unit is
-/// radiance. 0 where it is too small to matter. `rows`: grid.tileSize entries a tile.
-std::vector<float> staleRadiance(const TileGrid& grid, const std::vector<gpu::CarriedRow>& rows);
+/// Of a picture that was carried to another camera.
+struct Staleness {
+    std::vector<float>
+        errors;               ///< by tile, mean radiance that is wrong, as estimated; 0: too little to matter
+    float meanRadiance = 0.f; ///< of the picture
+};
+
+/// `rows`: grid.tileSize entries a tile.
+Staleness staleness(const TileGrid& grid, const std::vector<gpu::CarriedRow>& rows);
 
 } // namespace hipr

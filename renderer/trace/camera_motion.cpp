@@ -5,6 +5,12 @@
 #include "renderer/trace/renderer_impl.h"
 
 namespace hipr {
+namespace {
+
+/// What carrying itself makes wrong everywhere, in mean radiances: edges are off by up to half a pixel.
+constexpr float CarryError = 0.03f;
+
+} // namespace
 
 void RendererImpl::prepareMode() {
     const bool edits = _settings.mode != "uniform";
@@ -29,11 +35,13 @@ void RendererImpl::moveCamera(const std::optional<CameraDesc>& before, const std
     const auto start = Clock::now();
     std::vector<gpu::CarriedRow> rows;
     if (!_film.carry(*_machine->reprojection, _schedule, *from, *to, rows)) return;
-    std::vector<float> errors = staleRadiance(_schedule.grid(), rows);
+    Staleness stale = staleness(_schedule.grid(), rows);
+    std::vector<float>& errors = stale.errors;
     const float worst = *std::max_element(errors.begin(), errors.end());
     for (const WorldBox& box : regions)
         forTilesSeeing(_schedule.grid(), *to, box, [&](uint32_t tile) { errors[tile] = worst; });
-    _schedule.carried(errors);
+    _schedule.carried(errors, CarryError * stale.meanRadiance);
+    _edits.followMove(_settings, stale.meanRadiance);
     _log.order(_schedule);
     std::lock_guard<std::mutex> lock(_progressMutex);
     _progress.tilesDiscovered = _schedule.discoveredTiles();

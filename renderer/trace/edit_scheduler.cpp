@@ -30,6 +30,13 @@ void EditScheduler::stop() {
     _changed.clear();
 }
 
+void EditScheduler::followMove(const Settings& settings, float meanRadiance) {
+    _settings = settings;
+    _radiance = meanRadiance;
+    _moved = true;
+    _phase = meanRadiance > 0.f ? Phase::Follow : Phase::Idle;
+}
+
 void EditScheduler::start(const Settings& settings, const gpu::CameraRecord& camera,
                           const ChangedSet& changed, const std::vector<WorldBox>& boxes) {
     _phase = Phase::Idle;
@@ -90,7 +97,9 @@ void EditScheduler::finishSurvey() {
          ++tile) // elsewhere the view, not the edit, was compared
         if (!_schedule.tiles()[tile].comparable && !_survey.suspected(tile)) priorities[tile] = 0.f;
     order(priorities);
-    if (_survey.meanRadiance() > 0.f) _phase = Phase::Follow;
+    _radiance = _survey.meanRadiance();
+    _moved = false;
+    if (_radiance > 0.f) _phase = Phase::Follow;
 }
 
 /// Adds what the scouts saw to the active tiles and sends their first samples on their way.
@@ -126,24 +135,27 @@ void EditScheduler::traced(bool done) {
 }
 
 float EditScheduler::changeScale() const {
-    return _phase == Phase::Follow ? StepsPerRadiance / _survey.meanRadiance() : 0.f;
+    return _phase == Phase::Follow ? StepsPerRadiance / _radiance : 0.f;
 }
 
 /// Where new samples show a change, it goes on next door: tiles around are next.
 void EditScheduler::measured(const std::vector<gpu::TileWork>& tiles) {
     if (_phase != Phase::Follow) return;
-    const float radiance = _survey.meanRadiance();
     for (size_t i = 0; i < tiles.size(); ++i) {
         if (tiles[i].firstSample > 0) continue;
         const uint32_t tile = _schedule.grid().at(tiles[i].x, tiles[i].y);
+        const float steps = float(tiles[i].width * tiles[i].height) * StepsPerRadiance;
+        const float noise = float(_changes[i].noise) / steps * _radiance;
+        if (_moved) {
+            _schedule.compared(tile, noise);
+            continue;
+        }
         if (!_schedule.tiles()[tile].comparable) continue;
-        const float pixels = float(tiles[i].width * tiles[i].height);
-        const float steps = pixels * StepsPerRadiance;
         const float change = float(_changes[i].change) / steps; // in mean radiances
-        _schedule.measured(tile, change * radiance, float(_changes[i].noise) / steps * radiance);
+        _schedule.measured(tile, change * _radiance, noise);
         if (change < LeastChange) continue;
         forNeighbours(_schedule.grid(), tile, [&](uint32_t neighbour) {
-            _schedule.discover(neighbour, NeighbourShare * change * radiance);
+            _schedule.discover(neighbour, NeighbourShare * change * _radiance);
         });
     }
 }

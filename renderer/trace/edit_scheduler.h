@@ -35,6 +35,9 @@ public:
     /// An edit: `changed` is committed and `boxes` are where changed objects were and are.
     void start(const Settings& settings, const gpu::CameraRecord& camera, const ChangedSet& changed,
                const std::vector<WorldBox>& boxes);
+    /// The camera moved and the picture on display, of that mean radiance, was carried along: batches of
+    /// samples tell where it is better than they are.
+    void followMove(const Settings& settings, float meanRadiance);
     /// An edit is about to start: the search under way ends, but what it has not looked at is not forgotten.
     void interrupt() { _phase = Phase::Idle; }
     /// The samples are invalid for another reason than an edit: there is nothing to look for.
@@ -82,7 +85,9 @@ private:
 
     Phase _phase = Phase::Idle;
     uint32_t _edits = 0;
-    Settings _settings; ///< of the edit
+    float _radiance = 0.f; ///< mean of the picture, while batches are measured
+    bool _moved = false;   ///< by a camera: samples from before are of another view
+    Settings _settings;    ///< of the edit
     gpu::CameraRecord _camera{};
     Survey _survey;
     std::vector<gpu::ScoutResult> _scoutResults;

@@ -232,12 +232,33 @@ TEST(CameraMotion, MirrorsAreRefreshedBeforeMatteSurfaces) {
     EXPECT_GT(leastMirror, 2.f * mostMatte);
 }
 
+// One new sample a pixel is noisier than a picture of many that was carried along.
+TEST(CameraMotion, ACarriedPictureStaysUntilTheNewOneIsBetter) {
+    double errors[2];
+    for (int mode = 0; mode < 2; ++mode) {
+        Stage stage(settingsFor(mode ? "delta" : "uniform", 32), {Tile, 3000});
+        addWall(stage);
+        addDome(stage);
+        stage.edit.setCamera(lookAt({0, 0, 5}, {0, 0, 0}, 45));
+        stage.film(Size, Size);
+        stage.render();
+        stage.edit.setCamera(lookAt({0.2, 0.1, 4.9}, {0.2, 0.1, 0}, 45));
+        stage.renderer->commit(stage.edit);
+        while (stage.renderer->progress().samplesDone < 1)
+            stage.renderer->renderBatch();
+        const ColorPicture shown = stage.color();
+        stage.render();
+        errors[mode] = error(shown, stage.color());
+    }
+    EXPECT_LT(errors[1], 0.6 * errors[0]);
+}
+
 // Drags, moves in the middle of edits, edits in the middle of moves and both at once: no trace of it is left.
 TEST(CameraMotion, LeavesNoTraceInTheFinishedPicture) {
     std::vector<ColorPicture> expected;
     for (const char* mode : {"uniform", "delta", "paper"})
-        for (const RendererInternals& internals : {RendererInternals{8, 500}, {16, 3000}, {32, 1 << 16}})
-            for (int between : {0, 1, 4}) { // batches after each move but every third
+        for (const RendererInternals& internals : {RendererInternals{8, 1000}, {16, 3000}, {32, 1 << 16}})
+            for (int between : {0, 2}) { // batches after each move but every third
                 Stage stage(settingsFor(mode), internals);
                 Room room(stage);
                 stage.render();

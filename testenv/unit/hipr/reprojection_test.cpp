@@ -96,7 +96,7 @@ struct Carried {
             sum += row.uncovered;
         return sum;
     }
-    std::vector<float> errors() const { return staleRadiance(Grid, rows); }
+    std::vector<float> errors() const { return staleness(Grid, rows).errors; }
 };
 
 Reprojection& reprojection() {
