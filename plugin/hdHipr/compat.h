@@ -152,8 +152,8 @@ private:
 #endif
 };
 
-/// HdMesh with its instancer, material id and primvars behind one form.
-class MeshBase : public HdMesh {
+/// An HdRprim (or HdMesh) with its instancer, material id and primvars behind one form.
+template <class Base> class RprimBase : public Base {
 public:
 #if PXR_VERSION >= 2203
     void UpdateRenderTag(HdSceneDelegate* delegate, HdRenderParam* renderParam) final {
@@ -163,25 +163,25 @@ public:
 #endif
 
 protected:
-    MeshBase(SdfPath const& id, [[maybe_unused]] SdfPath const& instancerId)
+    RprimBase(SdfPath const& id, [[maybe_unused]] SdfPath const& instancerId)
 #if PXR_VERSION < 2102
-        : HdMesh(id, instancerId) {
+        : Base(id, instancerId) {
     }
     void syncInstancer(HdSceneDelegate*, HdDirtyBits*){}
 #else
-        : HdMesh(id) {
+        : Base(id) {
     }
     void syncInstancer(HdSceneDelegate* delegate, HdDirtyBits* dirtyBits) {
-        _UpdateInstancer(delegate, dirtyBits);
-        HdInstancer::_SyncInstancerAndParents(delegate->GetRenderIndex(), GetInstancerId());
+        this->_UpdateInstancer(delegate, dirtyBits);
+        HdInstancer::_SyncInstancerAndParents(delegate->GetRenderIndex(), this->GetInstancerId());
     }
 #endif
 
     void updateMaterialId([[maybe_unused]] HdSceneDelegate* delegate, SdfPath const& materialId) {
 #if PXR_VERSION < 2105
-        _SetMaterialId(delegate->GetRenderIndex().GetChangeTracker(), materialId);
+        this->_SetMaterialId(delegate->GetRenderIndex().GetChangeTracker(), materialId);
 #else
-        SetMaterialId(materialId);
+        this->SetMaterialId(materialId);
 #endif
     }
 
@@ -189,15 +189,21 @@ protected:
     VtValue readPrimvar(HdSceneDelegate* delegate, TfToken const& name, VtIntArray* indices) const {
         indices->clear();
 #if PXR_VERSION < 2105
-        return GetPrimvar(delegate, name);
+        return this->GetPrimvar(delegate, name);
 #else
-        return GetIndexedPrimvar(delegate, name, indices);
+        return this->GetIndexedPrimvar(delegate, name, indices);
 #endif
     }
 
     /// The render tag of the prim changed outside of Sync (22.03 and later).
     virtual void renderTagChanged(HdSceneDelegate* delegate, HdRenderParam* renderParam) = 0;
 };
+
+/// The type of clouds of splats; Hydra itself knows it from 26.03 on.
+inline TfToken const& particleFieldType() {
+    static const TfToken type("particleField");
+    return type;
+}
 
 /// HdMaterial without the method that left with 20.11.
 class MaterialBase : public HdMaterial {
@@ -292,23 +298,38 @@ inline PixelRect renderRect(HdRenderPassState const& state, [[maybe_unused]] int
     return {int(viewport[0]), int(viewport[1]), int(viewport[2]), int(viewport[3])};
 }
 
-/// The whole content of an asset by any path a resolver understands (files, packages, custom schemes), or
-/// nothing.
-inline std::vector<unsigned char> readAsset(std::string const& path) {
-    ArResolver& resolver = ArGetResolver();
-    const auto resolved = resolver.Resolve(path);
-    if (std::string(resolved).empty()) {
+/// The content of an asset, not copied where the resolver can show it as it is (files are mapped).
+struct AssetBytes {
+    std::shared_ptr<const unsigned char> data; ///< null: it cannot be opened
+    size_t size = 0;
+};
+
+/// Opens an asset by its resolved path; an empty one is that of nothing.
+inline AssetBytes openAsset(std::string const& resolvedPath) {
+    if (resolvedPath.empty()) {
         return {};
     }
-    const std::shared_ptr<ArAsset> asset = resolver.OpenAsset(resolved);
-    if (!asset) {
-        return {};
+#if PXR_VERSION >= 2203
+    const std::shared_ptr<ArAsset> asset = ArGetResolver().OpenAsset(ArResolvedPath(resolvedPath));
+#else
+    const std::shared_ptr<ArAsset> asset = ArGetResolver().OpenAsset(resolvedPath);
+#endif
+    if (asset && asset->GetSize() == 0) { // has no buffer
+        static const unsigned char nothing = 0;
+        return {{asset, &nothing}, 0};
     }
-    const std::shared_ptr<const char> bytes = asset->GetBuffer();
+    const std::shared_ptr<const char> bytes = asset ? asset->GetBuffer() : nullptr;
     if (!bytes) {
         return {};
     }
-    return std::vector<unsigned char>(bytes.get(), bytes.get() + asset->GetSize());
+    return {{bytes, reinterpret_cast<const unsigned char*>(bytes.get())}, asset->GetSize()};
+}
+
+/// The whole content of an asset by any path a resolver understands (files, packages, custom schemes), or
+/// nothing.
+inline std::vector<unsigned char> readAsset(std::string const& path) {
+    const AssetBytes asset = openAsset(std::string(ArGetResolver().Resolve(path)));
+    return std::vector<unsigned char>(asset.data.get(), asset.data.get() + asset.size);
 }
 
 /// The resolved form of an asset path, or an empty string.

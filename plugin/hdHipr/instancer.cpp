@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "plugin/hdHipr/convert.h"
 #include "plugin/hdHipr/messages.h"
 #include "plugin/hdHipr/primvars.h"
 #include "pxr/base/gf/matrix4f.h"
@@ -234,6 +235,26 @@ HdHiprInstancer::Instances HdHiprInstancer::instances(SdfPath const& prototypeId
         all.primvars.back().values = repeated(pv.values, pv.components, local.transforms.size(), true);
     }
     return all;
+}
+
+hipr::InstancesDesc hdhipr::readInstances(HdSceneDelegate& delegate, SdfPath const& id,
+                                          SdfPath const& instancerId) {
+    const GfMatrix4d own = delegate.GetTransform(id);
+    hipr::InstancesDesc desc;
+    if (instancerId.IsEmpty()) {
+        desc.transforms.push_back(toGlmAffine(own));
+    } else if (HdInstancer* instancer = delegate.GetRenderIndex().GetInstancer(instancerId)) {
+        HdHiprInstancer::Instances instances = static_cast<HdHiprInstancer*>(instancer)->instances(id);
+        desc.transforms.reserve(instances.transforms.size());
+        for (GfMatrix4d const& transform : instances.transforms) {
+            desc.transforms.push_back(toGlmAffine(own * transform));
+        }
+        desc.primvars = std::move(instances.primvars);
+    } else {
+        warnOnce(id.GetString(),
+                 "its instancer <" + instancerId.GetString() + "> does not exist; it is not drawn");
+    }
+    return desc;
 }
 
 PXR_NAMESPACE_CLOSE_SCOPE

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "plugin/hdHipr/compat.h"
-#include "renderer/api/types.h"
+#include "renderer/api/scene.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
 
@@ -35,5 +35,13 @@ private:
 
     std::map<TfToken, VtValue> _primvars;
 };
+
+namespace hdhipr {
+
+/// Where an rprim stands: once, or as its instancer says. Without the instancer that it names it stands
+/// nowhere, which is told.
+hipr::InstancesDesc readInstances(HdSceneDelegate& delegate, SdfPath const& id, SdfPath const& instancerId);
+
+} // namespace hdhipr
 
 PXR_NAMESPACE_CLOSE_SCOPE

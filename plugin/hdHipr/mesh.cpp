@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "plugin/hdHipr/convert.h"
 #include "plugin/hdHipr/instancer.h"
 #include "plugin/hdHipr/messages.h"
 #include "plugin/hdHipr/primvars.h"
@@ -45,7 +44,7 @@ size_t elementCount(hipr::MeshDesc const& desc, hipr::Interpolation interpolatio
 } // namespace
 
 HdHiprMesh::HdHiprMesh(SdfPath const& id, SdfPath const& instancerId, HdHiprRenderParam& param)
-    : MeshBase(id, instancerId), _geometry(param.newId<hipr::GeometryId>()),
+    : RprimBase(id, instancerId), _geometry(param.newId<hipr::GeometryId>()),
       _object(param.newId<hipr::ObjectId>()) {
     _desc.name = id.GetString();
 }
@@ -116,10 +115,7 @@ void HdHiprMesh::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdD
     // Last: UsdImaging hands out the points once, and asking for samples of them counts.
     const HdDirtyBits motionBits = instanceBits | HdChangeTracker::DirtyPoints;
     if ((bits & motionBits) && param.shutterOpen()) {
-        warnOfMotion(*delegate, GetId());
-        if (!GetInstancerId().IsEmpty()) {
-            warnOfInstanceMotion(*delegate, GetInstancerId());
-        }
+        warnOfMotion(*delegate, GetId(), HdTokens->points, GetInstancerId());
     }
     *dirtyBits = HdChangeTracker::Clean; // custom bits, too: AllDirty holds them
 }
@@ -255,7 +251,7 @@ HdPrimvarDescriptor const& HdHiprMesh::meant(HdPrimvarDescriptorVector const& sa
 }
 
 HdHiprMesh::Rebuild HdHiprMesh::setPoints(VtValue const& value) {
-    _desc.points = toPoints(value);
+    _desc.points = toVec3s(value);
     return Rebuild::Points;
 }
 
@@ -326,22 +322,7 @@ void HdHiprMesh::renderTagChanged(HdSceneDelegate* delegate, HdRenderParam* rend
 }
 
 void HdHiprMesh::sendInstances(HdSceneDelegate* delegate, HdHiprRenderParam& param) {
-    const GfMatrix4d own = delegate->GetTransform(GetId());
-    hipr::InstancesDesc desc;
-    if (GetInstancerId().IsEmpty()) {
-        desc.transforms.push_back(toGlmAffine(own));
-    } else if (HdInstancer* instancer = delegate->GetRenderIndex().GetInstancer(GetInstancerId())) {
-        HdHiprInstancer::Instances instances = static_cast<HdHiprInstancer*>(instancer)->instances(GetId());
-        desc.transforms.reserve(instances.transforms.size());
-        for (GfMatrix4d const& transform : instances.transforms) {
-            desc.transforms.push_back(toGlmAffine(own * transform));
-        }
-        desc.primvars = std::move(instances.primvars);
-    } else {
-        warnOnce(GetId().GetString(), "its instancer <" + GetInstancerId().GetString() +
-                                          "> does not exist; the mesh is not drawn");
-    }
-    param.edit().setInstances(_object, std::move(desc));
+    param.edit().setInstances(_object, readInstances(*delegate, GetId(), GetInstancerId()));
 }
 
 PXR_NAMESPACE_CLOSE_SCOPE

@@ -17,7 +17,7 @@ class HdHiprRenderParam;
 /// Sync turns dirty bits into the smallest edit: a moved mesh sends transforms, a deformed one new points, a
 /// rebound one materials; only changed topology, subdivision or primvars build the triangles again (on the
 /// Sync thread).
-class HdHiprMesh final : public hdhipr::MeshBase {
+class HdHiprMesh final : public hdhipr::RprimBase<HdMesh> {
 public:
     HdHiprMesh(SdfPath const& id, SdfPath const& instancerId, HdHiprRenderParam& param);
 

@@ -127,17 +127,12 @@ std::vector<HdPrimvarDescriptorVector> byName(HdPrimvarDescriptorVector const& d
     return groups;
 }
 
-std::vector<glm::vec3> toPoints(VtValue const& value) {
-    hipr::Primvar floats;
-    std::vector<glm::vec3> points;
-    if (!convertAny<GfVec3f, GfVec3d, GfVec3h>(value, floats)) {
-        return points;
-    }
-    points.reserve(floats.values.size() / 3);
-    for (size_t i = 0; i + 2 < floats.values.size(); i += 3) {
-        points.emplace_back(floats.values[i], floats.values[i + 1], floats.values[i + 2]);
-    }
-    return points;
+std::vector<glm::vec3> toVec3s(VtValue const& value) {
+    std::vector<glm::vec3> out;
+    const auto convert = [](auto const& v) { return glm::vec3(float(v[0]), float(v[1]), float(v[2])); };
+    appendArray<GfVec3f>(value, out, convert) || appendArray<GfVec3d>(value, out, convert) ||
+        appendArray<GfVec3h>(value, out, convert);
+    return out;
 }
 
 } // namespace hdhipr

@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "pxr/base/tf/token.h"
+#include "pxr/base/vt/array.h"
 #include "pxr/base/vt/value.h"
 #include "pxr/imaging/hd/enums.h"
 #include "pxr/imaging/hd/sceneDelegate.h"
@@ -45,8 +46,23 @@ private:
 /// Descriptors in groups of one name each; one group holds several only as above.
 std::vector<HdPrimvarDescriptorVector> byName(HdPrimvarDescriptorVector const& descriptors);
 
-/// Point positions of single, double or half precision. Empty when the value holds none.
-std::vector<glm::vec3> toPoints(VtValue const& value);
+/// Appends the elements of an array of T, each made a value of the renderer by `convert`. Returns whether it
+/// is one.
+template <class T, class Out, class Convert>
+bool appendArray(VtValue const& value, std::vector<Out>& out, Convert convert) {
+    if (!value.IsHolding<VtArray<T>>()) {
+        return false;
+    }
+    VtArray<T> const& array = value.UncheckedGet<VtArray<T>>();
+    out.reserve(out.size() + array.size());
+    for (T const* v = array.cdata(); v != array.cdata() + array.size(); ++v) {
+        out.push_back(convert(*v));
+    }
+    return true;
+}
+
+/// An array of triples of single, double or half precision. Empty when the value holds none.
+std::vector<glm::vec3> toVec3s(VtValue const& value);
 
 } // namespace hdhipr
 

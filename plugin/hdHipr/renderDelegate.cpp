@@ -11,6 +11,7 @@
 #include "plugin/hdHipr/material.h"
 #include "plugin/hdHipr/mesh.h"
 #include "plugin/hdHipr/messages.h"
+#include "plugin/hdHipr/particleField.h"
 #include "plugin/hdHipr/renderBuffer.h"
 #include "plugin/hdHipr/renderParam.h"
 #include "plugin/hdHipr/renderPass.h"
@@ -75,7 +76,7 @@ HdRenderParam* HdHiprRenderDelegate::GetRenderParam() const {
 }
 
 TfTokenVector const& HdHiprRenderDelegate::GetSupportedRprimTypes() const {
-    static const TfTokenVector types = {HdPrimTypeTokens->mesh};
+    static const TfTokenVector types = {HdPrimTypeTokens->mesh, particleFieldType()};
     return types;
 }
 
@@ -96,6 +97,9 @@ HdRprim* HdHiprRenderDelegate::createRprim(TfToken const& type, SdfPath const& i
                                            SdfPath const& instancerId) {
     if (type == HdPrimTypeTokens->mesh) {
         return new HdHiprMesh(id, instancerId, *_param);
+    }
+    if (type == particleFieldType()) {
+        return new HdHiprParticleField(id, instancerId, *_param);
     }
     warnOnce(id.GetString(), "prims of type '" + type.GetString() + "' are not supported");
     return nullptr;

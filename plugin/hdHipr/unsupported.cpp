@@ -32,23 +32,6 @@ bool primvarMoves(HdSceneDelegate& delegate, SdfPath const& id, TfToken const& n
 constexpr const char* motionText = "it moves while the camera's shutter is open, and motion blur is not "
                                    "supported; it stands still where it is at the frame's time";
 
-} // namespace
-
-void warnOfCullStyle(std::string const& subject, HdCullStyle style) {
-    if (style != HdCullStyleDontCare && style != HdCullStyleNothing) {
-        warnOnce(subject, "culling faces by their side is not supported; all faces are drawn");
-    }
-}
-
-void warnOfMotion(HdSceneDelegate& delegate, SdfPath const& id) {
-    const bool transform = moves<GfMatrix4d>([&](size_t most, float* times, GfMatrix4d* values) {
-        return delegate.SampleTransform(id, most, times, values);
-    });
-    if (transform || primvarMoves(delegate, id, HdTokens->points)) {
-        warnOnce(id.GetString(), motionText);
-    }
-}
-
 void warnOfInstanceMotion(HdSceneDelegate& delegate, SdfPath const& instancer) {
     bool moving = moves<GfMatrix4d>([&](size_t most, float* times, GfMatrix4d* values) {
         return delegate.SampleInstancerTransform(instancer, most, times, values);
@@ -60,6 +43,27 @@ void warnOfInstanceMotion(HdSceneDelegate& delegate, SdfPath const& instancer) {
     }
     if (moving) {
         warnOnce(instancer.GetString(), motionText);
+    }
+}
+
+} // namespace
+
+void warnOfCullStyle(std::string const& subject, HdCullStyle style) {
+    if (style != HdCullStyleDontCare && style != HdCullStyleNothing) {
+        warnOnce(subject, "culling faces by their side is not supported; all faces are drawn");
+    }
+}
+
+void warnOfMotion(HdSceneDelegate& delegate, SdfPath const& id, TfToken const& points,
+                  SdfPath const& instancerId) {
+    const bool transform = moves<GfMatrix4d>([&](size_t most, float* times, GfMatrix4d* values) {
+        return delegate.SampleTransform(id, most, times, values);
+    });
+    if (transform || primvarMoves(delegate, id, points)) {
+        warnOnce(id.GetString(), motionText);
+    }
+    if (!instancerId.IsEmpty()) {
+        warnOfInstanceMotion(delegate, instancerId);
     }
 }
 

@@ -1,5 +1,5 @@
 /// @file unsupported.h
-/// What a mesh or a view asks for and does not get: named once, so that nobody wonders at the picture.
+/// What a prim or a view asks for and does not get: named once, so that nobody wonders at the picture.
 #pragma once
 
 #include "plugin/hdHipr/compat.h"
@@ -11,11 +11,10 @@ namespace hdhipr {
 /// Warns of a cull style that would leave faces out. `subject`: the prim that has it; empty for the view.
 void warnOfCullStyle(std::string const& subject, HdCullStyle style);
 
-/// Warns when the transform or the points of a mesh move within the shutter interval. Reads samples of both:
-/// call it only while a shutter is open.
-void warnOfMotion(HdSceneDelegate& delegate, SdfPath const& id);
-/// The same for an instancer and the places of its instances.
-void warnOfInstanceMotion(HdSceneDelegate& delegate, SdfPath const& instancer);
+/// Warns when a prim's transform or its `points`, or its instancer's transform or the places of its instances
+/// move within the shutter interval. Reads samples of all: call it only while a shutter is open.
+void warnOfMotion(HdSceneDelegate& delegate, SdfPath const& id, TfToken const& points,
+                  SdfPath const& instancerId);
 
 } // namespace hdhipr
 

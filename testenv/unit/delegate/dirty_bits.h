@@ -16,7 +16,7 @@ PXR_NAMESPACE_OPEN_SCOPE
 namespace dirtybits {
 
 /// What a changed element of the scene below is. View: camera, film and settings, which have no id.
-enum class Target { View, Square, Smooth, Computed, Hidden, Many, Nested, Added, Lamp, Red };
+enum class Target { View, Square, Smooth, Computed, Hidden, Many, Nested, Cloud, Clouds, Added, Lamp, Red };
 
 /// One element of an expected ChangedSet.
 struct Element {
@@ -75,6 +75,7 @@ struct Section {
 };
 
 Section meshSection();
+Section particleFieldSection();
 Section instancerSection();
 Section lightSection();
 Section materialSection();
@@ -92,8 +93,8 @@ struct Absent {
 std::vector<Absent> const& absentTypes();
 
 inline std::vector<Section> allSections() {
-    return {meshSection(),        instancerSection(), lightSection(), materialSection(), cameraSection(),
-            computationSection(), bufferSection(),    primSection(),  hostSection()};
+    return {meshSection(),   particleFieldSection(), instancerSection(), lightSection(), materialSection(),
+            cameraSection(), computationSection(),   bufferSection(),    primSection(),  hostSection()};
 }
 
 /// docs/dirty_bits.md.

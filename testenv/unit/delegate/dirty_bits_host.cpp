@@ -98,6 +98,9 @@ Section primSection() {
                             world.addSquare("/new", Target::Added).transform.SetTranslate(GfVec3d(3, 3, 0));
                         }),
                  added, removed),
+            prim("a cloud of splats", "it comes",
+                 insert("/new", [=](World& world) { world.scene().addSplats(path, GfVec3f(0.5f)); }), added,
+                 removed),
             prim("an instancer with a mesh", "both come", removeInstanced, added, removed),
             prim("an instancer without a mesh", "it comes",
                  insert("/new",
@@ -127,7 +130,8 @@ Section primSection() {
 Section hostSection() {
     const Elements hidden = {{Target::Square, Change::Visibility}};
     Elements allHidden;
-    for (Target target : {Target::Square, Target::Smooth, Target::Computed, Target::Many, Target::Nested}) {
+    for (Target target : {Target::Square, Target::Smooth, Target::Computed, Target::Many, Target::Nested,
+                          Target::Cloud, Target::Clouds}) {
         allHidden.push_back({target, Change::Visibility});
     }
     return {

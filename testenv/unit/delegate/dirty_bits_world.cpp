@@ -55,6 +55,14 @@ World::World() : _host({"color", "primId"}) {
                          SdfPath("/outer"));
     addSquare("/inner.square", Target::Nested, "/inner");
     learn(Target::Nested);
+
+    _expected = Target::Cloud;
+    scene().addSplats(SdfPath("/cloud"), GfVec3f(0.8f, 0.5f, 0.1f)).transform.SetTranslate(GfVec3d(0, 3, 0));
+    render();
+    scene().addInstancer(SdfPath("/clouds"), SdfPath("/clouds.cloud"), {{-2, -1, 0}, {2, -1, 0}});
+    _expected = Target::Clouds;
+    scene().addSplats(SdfPath("/clouds.cloud"), GfVec3f(0.1f, 0.5f, 0.8f), SdfPath("/clouds"));
+    render();
 }
 
 TestScene::Prim& World::addSquare(const char* path, Target target, const char* instancer) {

@@ -147,13 +147,16 @@ TEST(DirtyBits, BecomeWhatTheTableSays) {
 
 TEST(DirtyBits, AreNotLeftOnAPrimThatHasSynced) {
     World world;
-    for (Row const& row : meshSection().rows) {
-        row.apply(world, true);
-        world.render();
-        row.apply(world, false);
-        world.render();
+    for (Section const& section : {meshSection(), particleFieldSection()}) {
+        for (Row const& row : section.rows) {
+            row.apply(world, true);
+            world.render();
+            row.apply(world, false);
+            world.render();
+        }
     }
-    for (const char* path : {"/square", "/smooth", "/computed", "/many.square", "/inner.square"}) {
+    for (const char* path :
+         {"/square", "/smooth", "/computed", "/many.square", "/inner.square", "/cloud", "/clouds.cloud"}) {
         const HdDirtyBits bits = world.tracker().GetRprimDirtyBits(SdfPath(path));
         EXPECT_EQ(HdChangeTracker::StringifyDirtyBits(bits & ~HdChangeTracker::Varying),
                   HdChangeTracker::StringifyDirtyBits(HdChangeTracker::Clean))

@@ -23,19 +23,37 @@ VtVec3fArray squarePoints(GfVec3f const& offset) {
 
 } // namespace
 
-TestScene::Prim& TestScene::addSquare(SdfPath const& id, GfVec3f const& color, SdfPath const& instancer) {
+TestScene::Prim& TestScene::insertRprim(TfToken const& type, SdfPath const& id, SdfPath const& instancer) {
     Prim& prim = _prims[id];
-    prim.type = HdPrimTypeTokens->mesh;
+    prim.type = type;
     prim.instancer = instancer;
+#if PXR_VERSION < 2102
+    GetRenderIndex().InsertRprim(type, this, id, instancer);
+#else
+    GetRenderIndex().InsertRprim(type, this, id);
+#endif
+    return prim;
+}
+
+TestScene::Prim& TestScene::addSquare(SdfPath const& id, GfVec3f const& color, SdfPath const& instancer) {
+    Prim& prim = insertRprim(HdPrimTypeTokens->mesh, id, instancer);
     prim.topology = HdMeshTopology(PxOsdOpenSubdivTokens->none, PxOsdOpenSubdivTokens->rightHanded,
                                    VtIntArray{4}, VtIntArray{0, 1, 2, 3});
     prim.primvars[HdTokens->points] = {HdInterpolationVertex, VtValue(squarePoints(GfVec3f(0.f)))};
     prim.primvars[HdTokens->displayColor] = {HdInterpolationConstant, VtValue(VtVec3fArray{color})};
-#if PXR_VERSION < 2102
-    GetRenderIndex().InsertRprim(HdPrimTypeTokens->mesh, this, id, instancer);
-#else
-    GetRenderIndex().InsertRprim(HdPrimTypeTokens->mesh, this, id);
-#endif
+    return prim;
+}
+
+TestScene::Prim& TestScene::addSplats(SdfPath const& id, GfVec3f const& color, SdfPath const& instancer) {
+    Prim& prim = insertRprim(hdhipr::particleFieldType(), id, instancer);
+    const auto set = [&](char const* name, HdInterpolation interpolation, VtValue value) {
+        prim.primvars[TfToken(name)] = {interpolation, std::move(value)};
+    };
+    const GfVec3f dc = (color - GfVec3f(0.5f)) / 0.28209479f; // of Y_0
+    set("positions", HdInterpolationVertex, VtValue(VtVec3fArray{{-0.25f, 0, 0}, {0.25f, 0, 0}}));
+    set("scales", HdInterpolationVertex, VtValue(VtVec3fArray(2, GfVec3f(0.1f))));
+    set("radiance:sphericalHarmonicsDegree", HdInterpolationConstant, VtValue(0));
+    set("radiance:sphericalHarmonicsCoefficients", HdInterpolationVertex, VtValue(VtVec3fArray(2, dc)));
     return prim;
 }
 
@@ -122,7 +140,7 @@ TestScene::Prim& TestScene::addBuffer(SdfPath const& id, HdRenderBufferDescripto
 
 void TestScene::remove(SdfPath const& id) {
     const TfToken type = prim(id).type;
-    if (type == HdPrimTypeTokens->mesh) {
+    if (type == HdPrimTypeTokens->mesh || type == hdhipr::particleFieldType()) {
         GetRenderIndex().RemoveRprim(id);
     } else if (type == HdInstancerTokens->instancer) {
         GetRenderIndex().RemoveInstancer(id);

@@ -43,6 +43,8 @@ public:
 
     /// Adds a unit square in the XY plane, facing +Z, centred at the origin, of one colour.
     Prim& addSquare(SdfPath const& id, GfVec3f const& color, SdfPath const& instancer = SdfPath());
+    /// Adds a cloud of two round splats of one colour, at x = -0.25 and 0.25.
+    Prim& addSplats(SdfPath const& id, GfVec3f const& color, SdfPath const& instancer = SdfPath());
     /// Adds an instancer of `prototype` with a translation per instance.
     Prim& addInstancer(SdfPath const& id, SdfPath const& prototype, VtVec3fArray const& translations,
                        SdfPath const& parent = SdfPath());
@@ -107,6 +109,7 @@ public:
 #endif
 
 private:
+    Prim& insertRprim(TfToken const& type, SdfPath const& id, SdfPath const& instancer);
     VtValue param(SdfPath const& id, TfToken const& name);
 
     std::map<SdfPath, Prim> _prims;

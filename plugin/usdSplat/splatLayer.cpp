@@ -1,0 +1,132 @@
+#include "plugin/usdSplat/splatLayer.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <glm/gtc/quaternion.hpp>
+
+#include "pxr/base/gf/quatf.h"
+#include "pxr/base/gf/vec3f.h"
+#include "pxr/base/vt/array.h"
+#include "pxr/usd/sdf/attributeSpec.h"
+#include "pxr/usd/sdf/primSpec.h"
+#include "pxr/usd/sdf/types.h"
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+namespace {
+
+/// Splats are seen up to so many standard deviations (the support of UsdVol's Gaussian kernel).
+constexpr float reach = 3.f;
+
+GfVec3f toGf(glm::vec3 const& v) {
+    return GfVec3f(v.x, v.y, v.z);
+}
+GfQuatf toGf(glm::quat const& q) {
+    return GfQuatf(q.w, q.x, q.y, q.z);
+}
+float toGf(float value) {
+    return value;
+}
+
+/// The values as an array of USD; the vector's memory is given back.
+template <class T> auto taken(std::vector<T>& values) {
+    VtArray<decltype(toGf(values.front()))> array(values.size());
+    std::transform(values.begin(), values.end(), array.data(), [](T const& value) { return toGf(value); });
+    std::vector<T>().swap(values);
+    return array;
+}
+
+/// Half the size of the box around a turned splat: a row of its rotation times its scales is a gradient.
+glm::vec3 halfSize(glm::vec3 const& scale, glm::quat const& orientation) {
+    const glm::mat3 turn = glm::mat3_cast(orientation);
+    glm::vec3 size;
+    for (int axis = 0; axis < 3; ++axis) {
+        size[axis] = glm::length(glm::vec3(turn[0][axis], turn[1][axis], turn[2][axis]) * scale);
+    }
+    return reach * size;
+}
+
+VtVec3fArray extentOf(hipr::SplatCloud const& cloud) {
+    glm::vec3 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
+    for (size_t i = 0; i < cloud.size(); ++i) {
+        const glm::vec3 scale = cloud.scales.empty() ? glm::vec3(1.f) : cloud.scales[i];
+        const glm::quat turn =
+            cloud.orientations.empty() ? glm::quat(1.f, 0.f, 0.f, 0.f) : cloud.orientations[i];
+        const glm::vec3 half = halfSize(scale, turn);
+        low = glm::min(low, cloud.positions[i] - half);
+        high = glm::max(high, cloud.positions[i] + half);
+    }
+    return cloud.size() > 0 ? VtVec3fArray{toGf(low), toGf(high)} : VtVec3fArray();
+}
+
+void addAttribute(SdfPrimSpecHandle const& prim, char const* name, SdfValueTypeName const& type,
+                  VtValue const& value, SdfVariability variability = SdfVariabilityVarying) {
+    SdfAttributeSpec::New(prim, name, type, variability)->SetDefaultValue(value);
+}
+
+template <class T>
+void addArray(SdfPrimSpecHandle const& prim, char const* name, SdfValueTypeName const& type,
+              std::vector<T>& values) {
+    if (!values.empty()) {
+        auto array = taken(values);
+        addAttribute(prim, name, type, VtValue::Take(array));
+    }
+}
+
+/// The turn about X that makes an axis Y, in degrees.
+float turnOf(UsdSplatUp up) {
+    switch (up) {
+    case UsdSplatUp::MinusY:
+        return 180.f;
+    case UsdSplatUp::Z:
+        return -90.f;
+    case UsdSplatUp::MinusZ:
+        return 90.f;
+    case UsdSplatUp::Y:
+        break;
+    }
+    return 0.f;
+}
+
+void turn(SdfPrimSpecHandle const& prim, UsdSplatUp up) {
+    if (up == UsdSplatUp::Y) {
+        return;
+    }
+    addAttribute(prim, "xformOp:rotateX", SdfValueTypeNames->Float, VtValue(turnOf(up)));
+    addAttribute(prim, "xformOpOrder", SdfValueTypeNames->TokenArray,
+                 VtValue(VtTokenArray{TfToken("xformOp:rotateX")}), SdfVariabilityUniform);
+}
+
+} // namespace
+
+std::optional<UsdSplatUp> UsdSplatUpNamed(std::string const& name) {
+    constexpr std::pair<char const*, UsdSplatUp> names[] = {
+        {"y", UsdSplatUp::Y}, {"-y", UsdSplatUp::MinusY}, {"z", UsdSplatUp::Z}, {"-z", UsdSplatUp::MinusZ}};
+    for (auto const& [known, up] : names) {
+        if (name == known) {
+            return up;
+        }
+    }
+    return std::nullopt;
+}
+
+SdfLayerRefPtr UsdSplatMakeLayer(hipr::SplatCloud&& cloud, UsdSplatUp up) {
+    const SdfLayerRefPtr layer = SdfLayer::CreateAnonymous("splats.usda");
+    const SdfPrimSpecHandle prim =
+        SdfPrimSpec::New(layer, "Splats", SdfSpecifierDef, "ParticleField3DGaussianSplat");
+    layer->SetDefaultPrim(prim->GetNameToken());
+    addAttribute(prim, "extent", SdfValueTypeNames->Float3Array, VtValue(extentOf(cloud)));
+    addArray(prim, "positions", SdfValueTypeNames->Point3fArray, cloud.positions);
+    addArray(prim, "orientations", SdfValueTypeNames->QuatfArray, cloud.orientations);
+    addArray(prim, "scales", SdfValueTypeNames->Float3Array, cloud.scales);
+    addArray(prim, "opacities", SdfValueTypeNames->FloatArray, cloud.opacities);
+    addAttribute(prim, "radiance:sphericalHarmonicsDegree", SdfValueTypeNames->Int,
+                 VtValue(int(cloud.shDegree)), SdfVariabilityUniform);
+    addArray(prim, "radiance:sphericalHarmonicsCoefficients", SdfValueTypeNames->Float3Array,
+             cloud.coefficients);
+    turn(prim, up);
+    return layer;
+}
+
+PXR_NAMESPACE_CLOSE_SCOPE
