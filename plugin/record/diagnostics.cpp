@@ -1,11 +1,13 @@
 #include "plugin/record/diagnostics.h"
 
 #include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <mutex>
 #include <unistd.h>
 #include <unordered_set>
 
+#include "plugin/record/progress.h"
 #include "pxr/base/tf/diagnosticMgr.h"
 #include "pxr/base/tf/error.h"
 #include "pxr/base/tf/status.h"
@@ -58,13 +60,37 @@ struct Diagnostics::Route : TfDiagnosticMgr::Delegate {
         _UnhandledAbort();
     }
     void IssueStatus(const TfStatus& status) override {
+        if (const double* fraction = status.GetInfo<double>()) { // of our file format: a long reading
+            if (currentVerbosity != Verbosity::Quiet)
+                showProgress(trimmed(status.GetCommentary()), *fraction);
+            return;
+        }
         if (currentVerbosity == Verbosity::Verbose) printLine("status", trimmed(status.GetCommentary()));
     }
     void IssueWarning(const TfWarning& warning) override {
         const std::string text = trimmed(warning.GetCommentary());
         if (!saidBefore(text)) printWarning(text);
     }
+
+    void showProgress(const std::string& title, double fraction);
+
+    std::mutex mutex; ///< guards what follows: layers are read on many threads
+    Progress progress{stderr, isatty(STDERR_FILENO) != 0};
+    std::string progressTitle;
+    std::chrono::steady_clock::time_point progressStart;
 };
+
+void Diagnostics::Route::showProgress(const std::string& title, double fraction) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    const auto now = std::chrono::steady_clock::now();
+    if (title != progressTitle) {
+        progressTitle = title;
+        progressStart = now;
+        progress.begin(title);
+    }
+    progress.update({fraction, 0, std::chrono::duration<double>(now - progressStart).count()});
+    if (fraction >= 1.0) progress.end();
+}
 
 Diagnostics::Diagnostics(Verbosity verbosity) : _route(new Route) {
     currentVerbosity = verbosity;

@@ -17,6 +17,7 @@ examples:
   ./hipr render testenv/scenes/cornell.usda -o out.png    render a scene; the first time this sets everything up
   ./hipr render shot.usdc -o shot.####.exr --frames 1:24 --samples 256 --size 1920x1080
   ./hipr render -- --help                                 all options of the recorder
+  ./hipr convert --up -y capture.ply capture.usdc         a capture of Gaussian splats as USD, set upright
   ./hipr test                                             set up, build and run all tests
   ./hipr test -R sampling                                 only tests whose name matches
   ./hipr usdview scene.usda                               OpenUSD's viewer with hdHipr in its viewport
@@ -55,6 +56,7 @@ def parser() -> argparse.ArgumentParser:
     add("build", "build hdHipr and its tests")
     for name, text, tail in (
             ("render", "render a scene with hiprrecord; its options follow", "SCENE -o PICTURE"),
+            ("convert", "convert captures of Gaussian splats (.ply, .spz) to USD, and splats to .ply", "IN OUT"),
             ("usdview", "open a scene in usdview with hdHipr selected", "SCENE"),
             ("usdrecord", "record a scene with OpenUSD's usdrecord through hdHipr", "SCENE PICTURE")):
         sub = add(name, text, usage=f"hipr {name} [--usd DIR] [--jobs N] [--no-packages] {tail} [OPTION ...]")
@@ -87,7 +89,7 @@ def _positive(text: str) -> int:
     return number
 
 
-PASS_THROUGH = ("render", "usdview", "usdrecord", "bench")
+PASS_THROUGH = ("render", "convert", "usdview", "usdrecord", "bench")
 
 
 def split(argv: List[str]) -> List[str]:

@@ -44,6 +44,11 @@ def render(options) -> int:
     return _replace(project.program("hiprrecord"), options.arguments, sdk)
 
 
+def convert(options) -> int:
+    sdk, project = _built(options, openusd.CORE)
+    return _replace(project.program("hiprconvert"), options.arguments, sdk)
+
+
 def usdview(options) -> int:
     sdk, _ = _built(options, openusd.FULL)
     if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):

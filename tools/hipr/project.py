@@ -12,7 +12,7 @@ from .errors import HiprError
 from .progress import NinjaProgress
 from .sdk import Sdk
 
-RENDER_TARGETS = ("hiprrecord", "hdHipr", "hiprdevices")
+RENDER_TARGETS = ("hiprrecord", "hdHipr", "hiprdevices", "usdSplat", "hiprconvert")
 SOURCE_FOLDERS = ("cmake", "plugin", "renderer", "schemas", "shaders")
 TEST_FOLDERS = ("testenv",)
 TOP_FILES = ("CMakeLists.txt", "CMakePresets.json")
