@@ -37,6 +37,10 @@ glm::uvec2 binSize(SplatMode mode) {
     }
 }
 
+bool isFlat(SplatMode mode) {
+    return mode == SplatMode::Flat16Aabb || mode == SplatMode::Flat16Exact || mode == SplatMode::Flat8Exact;
+}
+
 gpu::SplatPlacement splatPlacement(const SplatInstance& instance, const SplatView& view, uint32_t first) {
     const gpu::CameraRecord& camera = view.camera;
     const glm::dmat4 toWorld = extended(instance.objectToWorld), toObject = glm::inverse(toWorld);
@@ -81,51 +85,65 @@ SplatBlocks splatBlocks(const std::vector<SplatInstance>& instances) {
 }
 
 uint64_t SplatBuffers::histogramBytes(const gpu::SplatFrame& f) const {
-    return uint64_t(f.tileColumns) * f.tileRows * sizeof(uint32_t) * (_lanes ? gpu::SPLAT_CHUNKS : 1);
+    const uint64_t tileCount = uint64_t(f.tileColumns) * f.tileRows;
+    const uint64_t counters = _lanes ? tileCount * gpu::SPLAT_CHUNKS : tileCount;
+    return sizeof(uint32_t) * std::max<uint64_t>(counters, gpu::SPLAT_CHUNKS * gpu::SPLAT_DIGITS);
 }
 
 void SplatBuffers::reserveLists(uint64_t pairCount, uint64_t batchCount) {
-    for (GrowingBuffer& side : pairs)
-        side.reserve(_device, pairCount * sizeof(gpu::SplatPair));
-    masks.reserve(_device, pairCount * sizeof(uint32_t));
     _pairCapacity = std::max(_pairCapacity, pairCount);
     _batchCapacity = std::max(_batchCapacity, batchCount);
 }
 
-void SplatBuffers::prepare(gpu::SplatFrame& f, bool withRays) {
-    const uint64_t tileCount = uint64_t(f.tileColumns) * f.tileRows;
-    const uint64_t pixelCount = uint64_t(f.width) * f.height;
-    placements.reserve(_device, f.placementCount * sizeof(gpu::SplatPlacement));
-    splats.reserve(_device, f.splatCount * uint64_t(_half ? sizeof(gpu::ProjectedSplatHalf)
-                                                          : sizeof(gpu::ProjectedSplat)));
-    if (withRays) rays.reserve(_device, f.splatCount * sizeof(gpu::SplatRay));
-    histogram.reserve(_device, histogramBytes(f));
-    tiles.reserve(_device, tileCount * sizeof(gpu::SplatTile));
-    tileMask.reserve(_device, tileCount * sizeof(uint32_t));
-    pixels.reserve(_device, pixelCount * sizeof(gpu::SplatPixel));
-    state.reserve(_device, sizeof(gpu::SplatState));
-    camera.reserve(_device, sizeof(gpu::CameraRecord));
-    frame.reserve(_device, sizeof(gpu::SplatFrame));
-    if (f.flags & gpu::FRAME_PROFILING) blends.reserve(_device, tileCount * sizeof(glm::uvec2));
-    if (_pairCapacity == 0) // a guess; frames that need more make it grow
+void SplatBuffers::prepareLists(SplatMode mode, gpu::SplatFrame& f) {
+    if (_pairCapacity == 0) { // a guess; frames that need more make it grow
+        const uint64_t tileCount = uint64_t(f.tileColumns) * f.tileRows;
         reserveLists(f.splatCount / 2 + 32 * tileCount + 4096, f.splatCount / 1024 + tileCount + 64);
-
-    f.placements = placements.address();
-    f.blocks = blocks.address();
-    f.splats = splats.address();
-    f.rays = withRays ? rays.address() : 0;
-    f.histogram = histogram.address();
-    f.tiles = tiles.address();
-    f.tileMask = tileMask.address();
-    f.pairs[0] = pairs[0].address();
-    f.pairs[1] = pairs[1].address();
-    f.masks = masks.address();
-    f.pixels = pixels.address();
-    f.state = state.address();
-    f.camera = camera.address();
-    f.blends = blends.buffer() ? blends.address() : 0;
+    }
+    for (int side = 0; side < 2; ++side)
+        if (isFlat(mode)) {
+            tilePairs[side].reserve(_device, _pairCapacity * sizeof(gpu::SplatTilePair));
+            f.tilePairs[side] = tilePairs[side].address();
+        } else {
+            pairs[side].reserve(_device, _pairCapacity * sizeof(gpu::SplatPair));
+            f.pairs[side] = pairs[side].address();
+        }
+    if (!isFlat(mode)) {
+        masks.reserve(_device, _pairCapacity * sizeof(uint32_t));
+        f.masks = masks.address();
+    }
+    if (mode == SplatMode::Higs8) {
+        constexpr uint64_t Pixels = gpu::SPLAT_MACRO_WIDTH * gpu::SPLAT_MACRO_HEIGHT;
+        partials.reserve(_device, _batchCapacity * Pixels * sizeof(gpu::SplatPartial));
+        f.partials = partials.address();
+    }
     f.pairCapacity = uint32_t(std::min<uint64_t>(_pairCapacity, UINT32_MAX));
     f.batchCapacity = uint32_t(std::min<uint64_t>(_batchCapacity, UINT32_MAX));
+}
+
+void SplatBuffers::prepare(SplatMode mode, gpu::SplatFrame& f) {
+    const uint64_t tileCount = uint64_t(f.tileColumns) * f.tileRows;
+    const auto reserve = [&](GrowingBuffer& buffer, uint64_t bytes) {
+        buffer.reserve(_device, bytes);
+        return buffer.address();
+    };
+    const bool sortedByRay = SplatSorting(f.sorting) == SplatSorting::RayHitDistance;
+    const uint64_t splatBytes = _half ? sizeof(gpu::ProjectedSplatHalf) : sizeof(gpu::ProjectedSplat);
+    f.placements = reserve(placements, f.placementCount * sizeof(gpu::SplatPlacement));
+    f.blocks = blocks.address();
+    f.splats = reserve(splats, f.splatCount * splatBytes);
+    f.rays = sortedByRay ? reserve(rays, f.splatCount * sizeof(gpu::SplatRay)) : 0;
+    f.histogram = reserve(histogram, histogramBytes(f));
+    f.tiles = reserve(tiles, tileCount * sizeof(gpu::SplatTile));
+    f.tileMask = reserve(tileMask, tileCount * sizeof(uint32_t));
+    f.pixels = reserve(pixels, uint64_t(f.width) * f.height * sizeof(gpu::SplatPixel));
+    const uint64_t renderTiles = uint64_t((f.width + 7) / 8) * ((f.height + 7) / 8);
+    f.emptied = reserve(emptied, renderTiles * sizeof(uint32_t));
+    f.state = reserve(state, sizeof(gpu::SplatState));
+    f.camera = reserve(camera, sizeof(gpu::CameraRecord));
+    f.blends = f.flags & gpu::FRAME_PROFILING ? reserve(blends, tileCount * sizeof(glm::uvec2)) : 0;
+    reserve(frame, sizeof(gpu::SplatFrame));
+    prepareLists(mode, f);
 }
 
 } // namespace hipr

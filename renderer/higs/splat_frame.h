@@ -8,6 +8,8 @@ namespace hipr {
 
 /// The binning grid of a mode, in pixels.
 glm::uvec2 binSize(SplatMode mode);
+/// Whether all pairs of a mode are sorted at once, by tile first.
+bool isFlat(SplatMode mode);
 
 /// An instance as the kernels see it; `first` is the index of its first splat among all. Works in double
 /// precision. Instances that cannot be seen (a matrix without inverse) are hidden.
@@ -46,18 +48,22 @@ public:
 
     /// Makes room for what is known before a frame and writes the record's addresses and sizes; keeps the
     /// contents of `splats` when their number has not changed.
-    void prepare(gpu::SplatFrame& frame, bool rays);
-    /// Makes room for lists of `pairs`, gaps included, in `batches`.
+    void prepare(SplatMode mode, gpu::SplatFrame& frame);
+    /// Makes room for lists of `pairs`, gaps included, in `batches`; prepare() tells the frame.
     void reserveLists(uint64_t pairs, uint64_t batches);
     uint64_t histogramBytes(const gpu::SplatFrame& frame) const;
 
     GrowingBuffer placements{"splat frame"}, blocks{"splat frame"}, splats{"splat frame"},
         rays{"splat frame"}, histogram{"splat frame"}, tiles{"splat frame"}, tileMask{"splat frame"},
-        masks{"splat lists"}, pixels{"splat pixels"}, state{"splat frame"}, camera{"splat frame"},
-        blends{"splat frame"}, frame{"splat frame"};
+        masks{"splat lists"}, partials{"splat partial pictures"}, pixels{"splat pixels"},
+        emptied{"splat frame"}, state{"splat frame"}, camera{"splat frame"}, blends{"splat frame"},
+        frame{"splat frame"};
     GrowingBuffer pairs[2] = {{"splat lists"}, {"splat lists"}};
+    GrowingBuffer tilePairs[2] = {{"splat lists"}, {"splat lists"}};
 
 private:
+    void prepareLists(SplatMode mode, gpu::SplatFrame& frame);
+
     Device& _device;
     const bool _lanes, _half;
     uint64_t _pairCapacity = 0, _batchCapacity = 0;

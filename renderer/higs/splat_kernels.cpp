@@ -46,18 +46,40 @@ struct Sources {
 
 const Sources& sourcesOf(SplatKernel kernel) {
     static const Sources table[size_t(SplatKernel::Number)] = {
-        {"splat project", HIPR_BY_RECORD(splat_project)}, {"splat touch", HIPR_BY_RECORD(splat_touch)},
-        {"splat count", HIPR_BY_BOTH(splat_count)},       {"splat offsets", HIPR_ONE_FORM(splat_offsets)},
-        {"splat tiles", HIPR_BY_LANES(splat_tiles)},      {"splat fill", HIPR_BY_BOTH(splat_fill)},
-        {"splat sort", HIPR_BY_LANES(splat_sort)},        {"splat merge", HIPR_BY_LANES(splat_merge)},
-        {"splat mask", HIPR_BY_RECORD(splat_mask)},       {"splat raster", HIPR_BY_RECORD(splat_raster)},
+        {"splat project", HIPR_BY_RECORD(splat_project)},
+        {"splat touch", HIPR_BY_RECORD(splat_touch)},
+        {"splat count", HIPR_BY_BOTH(splat_count)},
+        {"splat offsets", HIPR_ONE_FORM(splat_offsets)},
+        {"splat tiles", HIPR_BY_LANES(splat_tiles)},
+        {"splat fill", HIPR_BY_BOTH(splat_fill)},
+        {"splat sort", HIPR_BY_LANES(splat_sort)},
+        {"splat merge", HIPR_BY_LANES(splat_merge)},
+        {"splat mask", HIPR_BY_RECORD(splat_mask)},
+        {"splat raster", HIPR_BY_BOTH(splat_raster)},
+        {"splat raster limited", HIPR_BY_BOTH(splat_raster_limited)},
+        {"splat partial", HIPR_BY_BOTH(splat_partial)},
+        {"splat partial limited", HIPR_BY_BOTH(splat_partial_limited)},
+        {"splat compose", HIPR_BY_BOTH(splat_compose)},
+        {"splat compose limited", HIPR_BY_BOTH(splat_compose_limited)},
+        {"splat tally", HIPR_BY_RECORD(splat_tally)},
+        {"splat partial tally", HIPR_BY_RECORD(splat_tally_partial)},
+        {"splat flat count", HIPR_BY_RECORD(splat_flat_count)},
+        {"splat flat pairs", HIPR_ONE_FORM(splat_flat_pairs)},
+        {"splat flat fill", HIPR_BY_RECORD(splat_flat_fill)},
+        {"splat flat digits", HIPR_ONE_FORM(splat_flat_digits)},
+        {"splat flat scan", HIPR_ONE_FORM(splat_flat_scan)},
+        {"splat flat move", HIPR_ONE_FORM(splat_flat_move)},
+        {"splat flat tiles", HIPR_ONE_FORM(splat_flat_tiles)},
+        {"splat flat raster", HIPR_BY_BOTH(splat_raster_flat)},
+        {"splat flat raster limited", HIPR_BY_BOTH(splat_raster_flat_limited)},
+        {"splat flat tally", HIPR_BY_RECORD(splat_tally_flat)},
     };
     return table[size_t(kernel)];
 }
 
 } // namespace
 
-void SplatKernelSet::compile(std::initializer_list<SplatKernel> kernels) {
+void SplatKernelSet::compile(const std::vector<SplatKernel>& kernels) {
     for (const SplatKernel kernel : kernels) {
         std::optional<Kernel>& slot = _kernels[size_t(kernel)];
         if (slot) continue;

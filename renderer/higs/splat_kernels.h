@@ -4,22 +4,40 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "renderer/vulkan/kernel.h"
 
 namespace hipr {
 
 enum class SplatKernel {
-    Project, ///< splats -> ellipses
-    Touch,   ///< marks the tiles that some splats meet
-    Count,   ///< lists' lengths, by chunk in lanes
-    Offsets, ///< lanes: where the chunks' splats begin in the lists
-    Tiles,   ///< where the lists begin; sizes of what follows
-    Fill,    ///< lists
-    Sort,    ///< batches of lists
-    Merge,   ///< batches -> sorted lists
-    Mask,    ///< which pairs hit which render tiles
-    Raster,  ///< lists with masks -> pixels
+    Project,       ///< splats -> ellipses
+    Touch,         ///< marks the tiles that some splats meet
+    Count,         ///< lists' lengths, by chunk in lanes
+    Offsets,       ///< lanes: where the chunks' splats begin in the lists
+    Tiles,         ///< where the lists begin; sizes of what follows
+    Fill,          ///< lists
+    Sort,          ///< batches of lists
+    Merge,         ///< batches -> sorted lists
+    Mask,          ///< which pairs hit which render tiles
+    Raster,        ///< lists with masks -> pixels
+    RasterLimited, ///< the same, but for what lies behind SplatFrame::depthLimit; like all that say so
+    Partial,       ///< mode higs8: batches -> partial pictures
+    PartialLimited,
+    Compose, ///< partial pictures -> pixels
+    ComposeLimited,
+    Tally, ///< counts the blends of Raster
+    TallyPartial,
+    FlatCount,  ///< flat modes: pairs of the chunks of splats
+    FlatPairs,  ///< where the chunks' pairs begin
+    FlatFill,   ///< all pairs
+    FlatDigits, ///< counts one digit of the pairs
+    FlatScan,   ///< where pairs with that digit go
+    FlatMove,   ///< moves them there
+    FlatTiles,  ///< where the tiles' lists begin and end
+    FlatRaster, ///< lists -> pixels
+    FlatRasterLimited,
+    FlatTally,
     Number
 };
 
@@ -29,7 +47,7 @@ public:
     /// `lanes`: the form without barriers and shared memory; `half`: projected splats in half precision.
     SplatKernelSet(Device& device, bool lanes, bool half) : _device(device), _lanes(lanes), _half(half) {}
     /// Compiles what is not compiled yet (blocking).
-    void compile(std::initializer_list<SplatKernel> kernels);
+    void compile(const std::vector<SplatKernel>& kernels);
     /// A compiled kernel.
     const Kernel& operator[](SplatKernel kernel) const { return *_kernels[size_t(kernel)]; }
     bool lanes() const { return _lanes; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <ctime>
 #include <functional>
 
 #include "renderer/higs/splat_stages.h"
@@ -32,10 +33,15 @@ bool same(const SplatInstance& a, const SplatInstance& b) {
            a.visible == b.visible;
 }
 
+/// Whether pictures have the same pixels, and the same of them are drawn.
+bool samePixels(const SplatView& a, const SplatView& b) {
+    return a.width == b.width && a.height == b.height && a.cropX == b.cropX && a.cropY == b.cropY &&
+           a.cropWidth == b.cropWidth && a.cropHeight == b.cropHeight;
+}
+
 bool same(const SplatView& a, const SplatView& b) {
-    return std::memcmp(&a.camera, &b.camera, sizeof(a.camera)) == 0 && a.width == b.width &&
-           a.height == b.height && a.cropX == b.cropX && a.cropY == b.cropY && a.cropWidth == b.cropWidth &&
-           a.cropHeight == b.cropHeight && a.antialiased == b.antialiased;
+    return std::memcmp(&a.camera, &b.camera, sizeof(a.camera)) == 0 && samePixels(a, b) &&
+           a.antialiased == b.antialiased;
 }
 
 /// Lists are sorted by one measure: the most demanding that any instance asks for.
@@ -62,7 +68,8 @@ gpu::SplatFrame frameRecord(const SplatView& view, SplatMode mode, bool profilin
     f.farDepth = view.camera.farDepth;
     const bool parallel = view.camera.directionX == glm::vec3(0) && view.camera.directionY == glm::vec3(0);
     f.flags = (view.antialiased ? gpu::FRAME_ANTIALIASED : 0u) | (profiling ? gpu::FRAME_PROFILING : 0u) |
-              (parallel ? gpu::FRAME_PARALLEL : 0u);
+              (parallel ? gpu::FRAME_PARALLEL : 0u) |
+              (mode == SplatMode::Flat16Aabb ? gpu::FRAME_SQUARES : 0u);
     return f;
 }
 
@@ -100,6 +107,7 @@ struct SplatPass::Impl {
     bool profiling = false;
 
     int work = Everything;       ///< Work
+    bool newPicture = true;      ///< the pixels of the picture, or of the crop, hold anything
     bool listsComplete = false;  ///< the lists are those of all tiles
     std::vector<uint32_t> moved; ///< indices of instances, for Placements
     SplatStatistics statistics;
@@ -122,6 +130,7 @@ struct SplatPass::Impl {
     bool attempts(const std::atomic<bool>* cancel, gpu::SplatState* state);
     bool render(const std::atomic<bool>* cancel);
     void report(const gpu::SplatState& state);
+    void tally();
 };
 
 void SplatPass::Impl::setUp() {
@@ -138,6 +147,7 @@ void SplatPass::Impl::setUp() {
 
 void SplatPass::Impl::project(VkCommandBuffer cmd) const {
     stages.clear(cmd, !doing(Placements));
+    if (newPicture) stages.forgetEmpty(cmd);
     computeBarrier(cmd);
     if (doing(Everything)) stages.project(cmd, 0, uint32_t(blocks.blocks.size()));
     if (!doing(Placements)) return;
@@ -167,12 +177,14 @@ std::vector<SplatPass::Impl::Step> SplatPass::Impl::steps(bool again) const {
         add("scan", &SplatStages::scan);
         add("fill", &SplatStages::fill);
         add("sort", &SplatStages::sort);
-        add("masks", &SplatStages::masks);
+        if (!isFlat(mode())) add("masks", &SplatStages::masks);
     }
+    if (mode() == SplatMode::Higs8) add("partial", &SplatStages::partials);
     constexpr uint32_t Band = 16;
     for (uint32_t row = 0; row < stages.pixelRows(); row += Band) {
         const uint32_t rows = std::min(Band, stages.pixelRows() - row);
-        all.push_back({"raster", [=](VkCommandBuffer cmd) { stages.raster(cmd, row, rows); }, true});
+        const char* const name = mode() == SplatMode::Higs8 ? "compose" : "raster";
+        all.push_back({name, [=](VkCommandBuffer cmd) { stages.raster(cmd, row, rows); }, true});
     }
     return all;
 }
@@ -184,6 +196,7 @@ bool SplatPass::Impl::run(const std::vector<Step>& steps, const std::atomic<bool
         while (end < steps.size() && !profiling && !(cancel && steps[end].mayStop))
             ++end;
         const auto start = std::chrono::steady_clock::now();
+        const std::clock_t processorStart = std::clock();
         device.run([&](VkCommandBuffer cmd) {
             for (size_t i = begin; i < end; ++i) {
                 const bool sameStage = i != begin && std::strcmp(steps[i].name, steps[i - 1].name) == 0;
@@ -196,8 +209,9 @@ bool SplatPass::Impl::run(const std::vector<Step>& steps, const std::atomic<bool
         if (!profiling) continue;
         auto& rows = statistics.stages;
         if (rows.empty() || std::strcmp(rows.back().name, steps[begin].name) != 0)
-            rows.push_back({steps[begin].name, 0});
+            rows.push_back({steps[begin].name, 0, 0});
         rows.back().ms += time.count();
+        rows.back().processorMs += 1e3 * double(std::clock() - processorStart) / CLOCKS_PER_SEC;
     }
     return true;
 }
@@ -221,8 +235,24 @@ void SplatPass::Impl::report(const gpu::SplatState& state) {
     statistics.pairs = state.pairs;
     statistics.largestList = state.largestList;
     statistics.batches = state.batches;
+    const uint64_t pairBytes = isFlat(mode()) ? sizeof(gpu::SplatTilePair) : sizeof(gpu::SplatPair);
+    statistics.sortBytes = 2 * pairBytes * state.sortMoves;
+    if (mode() == SplatMode::Higs8)
+        statistics.partialBytes = uint64_t(state.batches) * gpu::SPLAT_MACRO_WIDTH * gpu::SPLAT_MACRO_HEIGHT *
+                                  sizeof(gpu::SplatPartial);
     drawn.resize(size_t(frame.tileColumns) * frame.tileRows);
     device.download(stages.buffers().tileMask.buffer(), drawn.data(), drawn.size() * sizeof(uint32_t));
+}
+
+/// Draws once more to count; not timed.
+void SplatPass::Impl::tally() {
+    device.run([&](VkCommandBuffer cmd) { stages.tally(cmd, uint32_t(statistics.batches)); });
+    std::vector<glm::uvec2> blends(drawn.size());
+    device.download(stages.buffers().blends.buffer(), blends.data(), blends.size() * sizeof(blends[0]));
+    for (const glm::uvec2& tile : blends) {
+        statistics.blendsTried += tile.x;
+        statistics.blendsDone += tile.y;
+    }
 }
 
 bool SplatPass::Impl::render(const std::atomic<bool>* cancel) {
@@ -244,8 +274,10 @@ bool SplatPass::Impl::render(const std::atomic<bool>* cancel) {
         return false;
     }
     report(state);
+    if (profiling) tally();
     listsComplete = !doing(Placements);
     work = Nothing;
+    newPicture = false;
     moved.clear();
     return true;
 }
@@ -256,6 +288,7 @@ SplatPass::~SplatPass() = default;
 
 void SplatPass::setView(const SplatView& view) {
     if (same(view, _impl->view)) return;
+    if (!samePixels(view, _impl->view)) _impl->newPicture = true;
     _impl->view = view;
     _impl->need(Everything);
 }
@@ -269,7 +302,7 @@ void SplatPass::setInstances(std::vector<SplatInstance> instances) {
         for (uint32_t i = 0; i < instances.size(); ++i) {
             if (same(instances[i], d.instances[i])) continue;
             d.moved.push_back(i);
-            d.need(Placements);
+            d.need(isFlat(d.mode()) ? Everything : Placements);
         }
     d.instances = std::move(instances);
 }

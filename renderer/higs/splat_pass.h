@@ -40,7 +40,7 @@ enum class SplatKernels : uint32_t {
 struct SplatPassOptions {
     SplatKernels kernels = SplatKernels::Automatic;
     bool halfRecords =
-        false; ///< conics and colours of projected splats in half precision: 32 instead of 44 bytes
+        false; ///< conics and colours of projected splats in half precision: 32 instead of 48 bytes
 };
 
 /// A camera and the part of its picture to draw, in pixels; rows count from the lower end, as CameraRecord's.
@@ -74,7 +74,8 @@ struct SplatStatistics {
     double totalMs = 0;
     struct Stage {
         const char* name;
-        double ms;
+        double ms;          ///< on the clock
+        double processorMs; ///< of all threads of this process together
     };
     std::vector<Stage> stages; ///< in order
 };

@@ -23,6 +23,8 @@ public:
     /// Resets counters; every tile is to be drawn, or none until touch() says so.
     void clear(VkCommandBuffer cmd, bool drawAll) const;
     void clearState(VkCommandBuffer cmd) const;
+    /// Forgets which pixels show nothing already: those of a new picture or crop hold anything.
+    void forgetEmpty(VkCommandBuffer cmd) const;
     /// Blocks from `first` to before `end`.
     void project(VkCommandBuffer cmd, uint32_t first, uint32_t end) const;
     /// Marks the tiles in which splats of these blocks are for drawing.
@@ -32,6 +34,10 @@ public:
     void fill(VkCommandBuffer cmd) const;
     void sort(VkCommandBuffer cmd) const;
     void masks(VkCommandBuffer cmd) const;
+    /// Mode higs8: the batches' partial pictures, which raster() composes.
+    void partials(VkCommandBuffer cmd) const;
+    /// Counts what raster() blends, or partials(), into buffers().blends; `batches`: as state() says.
+    void tally(VkCommandBuffer cmd, uint32_t batches) const;
     /// Rows of 8 pixels from `first` on.
     void raster(VkCommandBuffer cmd, uint32_t first, uint32_t rows) const;
     uint32_t pixelRows() const { return (_frame.height + gpu::SPLAT_TILE - 1) / gpu::SPLAT_TILE; }
@@ -46,6 +52,9 @@ private:
     void dispatch(VkCommandBuffer cmd, SplatKernel kernel, uint32_t groups, uint32_t first = 0,
                   uint32_t count = 0) const;
     void dispatchIndirect(VkCommandBuffer cmd, SplatKernel kernel, size_t offset, uint32_t first = 0) const;
+    void dispatchPixels(VkCommandBuffer cmd, SplatKernel kernel, uint32_t first, uint32_t rows,
+                        bool lanes) const;
+    void sortFlat(VkCommandBuffer cmd) const;
     uint32_t binGroups() const;
 
     Device& _device;

@@ -16,52 +16,100 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Pla
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer BlockRef { SplatBlock v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer RayRef { SplatRay v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TileRef { SplatTile v[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PairRef { SplatPair v[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PartialRef { SplatPartial v[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PixelRef { SplatPixel v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer PairRef { uint64_t v[]; }; // SplatPair
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TilePairRef { SplatTilePair v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer CameraRef { CameraRecord v; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer WordRef { uint v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FloatRef { float v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Vec3Ref { vec3 v[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Uvec4Ref { uvec4 v[]; };
+// A CPU reads and writes memory lane by lane, which costs as much for eight bytes as for four: what kernels do most is
+// done by pairs of words.
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer DoubleRef { uint64_t v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Uvec2Ref { uvec2 v[]; };
 
 layout(push_constant, scalar) uniform Push { SplatPush push; };
 
-#ifdef HALF_RECORDS
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer SplatRef { ProjectedSplatHalf v[]; };
+vec2 loadPair(uint64_t address, uint i) { return uintBitsToFloat(unpackUint2x32(DoubleRef(address).v[i])); }
+void storePair(uint64_t address, uint i, vec2 v) { DoubleRef(address).v[i] = packUint2x32(floatBitsToUint(v)); }
 
+#ifdef HALF_RECORDS
 ProjectedSplat loadSplat(SplatFrame frame, uint i) {
-    const ProjectedSplatHalf packed = SplatRef(frame.splats).v[i];
-    const vec2 shapeXY = unpackHalf2x16(packed.shapeXY), shapeZBias = unpackHalf2x16(packed.shapeZBias);
-    const vec2 colorRG = unpackHalf2x16(packed.colorRG);
-    return ProjectedSplat(packed.mean, vec3(shapeXY, shapeZBias.x), shapeZBias.y,
-                          vec3(colorRG, unpackHalf2x16(packed.colorB).x), packed.depth, packed.key);
+    const vec2 mean = loadPair(frame.splats, 4u * i), depthKey = loadPair(frame.splats, 4u * i + 1u);
+    const uvec2 shape = unpackUint2x32(DoubleRef(frame.splats).v[4u * i + 2u]);
+    const uvec2 color = unpackUint2x32(DoubleRef(frame.splats).v[4u * i + 3u]);
+    const vec2 shapeZBias = unpackHalf2x16(shape.y);
+    return ProjectedSplat(mean, vec3(unpackHalf2x16(shape.x), shapeZBias.x), shapeZBias.y,
+                          vec3(unpackHalf2x16(color.x), unpackHalf2x16(color.y).x), depthKey.x, depthKey.y, 0u);
 }
 
 void storeSplat(SplatFrame frame, uint i, ProjectedSplat s) {
     // Beyond halves' largest value there is nothing to tell apart, and infinities would make colours undefined.
     const vec3 color = min(s.color, vec3(65504.0));
-    SplatRef(frame.splats).v[i] =
-        ProjectedSplatHalf(s.mean, s.depth, s.key, packHalf2x16(s.shape.xy), packHalf2x16(vec2(s.shape.z, s.bias)),
-                           packHalf2x16(color.rg), packHalf2x16(vec2(color.b, 0.0)));
+    storePair(frame.splats, 4u * i, s.mean);
+    storePair(frame.splats, 4u * i + 1u, vec2(s.depth, s.key));
+    DoubleRef(frame.splats).v[4u * i + 2u] =
+        packUint2x32(uvec2(packHalf2x16(s.shape.xy), packHalf2x16(vec2(s.shape.z, s.bias))));
+    DoubleRef(frame.splats).v[4u * i + 3u] =
+        packUint2x32(uvec2(packHalf2x16(color.rg), packHalf2x16(vec2(color.b, 0.0))));
 }
 
-float loadBias(SplatFrame frame, uint i) {
-    return unpackHalf2x16(SplatRef(frame.splats).v[i].shapeZBias).y;
-}
+float loadBias(SplatFrame frame, uint i) { return unpackHalf2x16(WordRef(frame.splats).v[8u * i + 5u]).y; }
 #else
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer SplatRef { ProjectedSplat v[]; };
+ProjectedSplat loadSplat(SplatFrame frame, uint i) {
+    const vec2 shapeXY = loadPair(frame.splats, 6u * i + 1u), shapeZBias = loadPair(frame.splats, 6u * i + 2u);
+    const vec2 colorRG = loadPair(frame.splats, 6u * i + 3u), colorBDepth = loadPair(frame.splats, 6u * i + 4u);
+    return ProjectedSplat(loadPair(frame.splats, 6u * i), vec3(shapeXY, shapeZBias.x), shapeZBias.y,
+                          vec3(colorRG, colorBDepth.x), colorBDepth.y, loadPair(frame.splats, 6u * i + 5u).x, 0u);
+}
 
-ProjectedSplat loadSplat(SplatFrame frame, uint i) { return SplatRef(frame.splats).v[i]; }
-void storeSplat(SplatFrame frame, uint i, ProjectedSplat s) { SplatRef(frame.splats).v[i] = s; }
-float loadBias(SplatFrame frame, uint i) { return SplatRef(frame.splats).v[i].bias; }
+void storeSplat(SplatFrame frame, uint i, ProjectedSplat s) {
+    storePair(frame.splats, 6u * i, s.mean);
+    storePair(frame.splats, 6u * i + 1u, s.shape.xy);
+    storePair(frame.splats, 6u * i + 2u, vec2(s.shape.z, s.bias));
+    storePair(frame.splats, 6u * i + 3u, s.color.rg);
+    storePair(frame.splats, 6u * i + 4u, vec2(s.color.b, s.depth));
+    storePair(frame.splats, 6u * i + 5u, vec2(s.key, 0.0));
+}
+
+float loadBias(SplatFrame frame, uint i) { return FloatRef(frame.splats).v[12u * i + 5u]; }
 #endif
+
+// A pixel, and a batch's part of one, in memory.
+void storePixel(SplatFrame frame, uint i, SplatPixel pixel) {
+    storePair(frame.pixels, 4u * i, pixel.color.rg);
+    storePair(frame.pixels, 4u * i + 1u, vec2(pixel.color.b, pixel.transmittance));
+    DoubleRef(frame.pixels).v[4u * i + 2u] = packUint2x32(uvec2(floatBitsToUint(pixel.depth), uint(pixel.primId)));
+    DoubleRef(frame.pixels).v[4u * i + 3u] = packUint2x32(uvec2(uint(pixel.instanceId), pixel.splat));
+}
+uint loadPixelSplat(SplatFrame frame, uint i) { return WordRef(frame.pixels).v[8u * i + 7u]; }
+void storePixelMedian(SplatFrame frame, uint i, float depth, int primId, int instanceId, uint splat) {
+    DoubleRef(frame.pixels).v[4u * i + 2u] = packUint2x32(uvec2(floatBitsToUint(depth), uint(primId)));
+    DoubleRef(frame.pixels).v[4u * i + 3u] = packUint2x32(uvec2(uint(instanceId), splat));
+}
+void storePartial(SplatFrame frame, uint i, SplatPartial part) {
+    storePair(frame.partials, 2u * i, part.color.rg);
+    storePair(frame.partials, 2u * i + 1u, vec2(part.color.b, part.transmittance));
+}
+SplatPartial loadPartial(SplatFrame frame, uint i) {
+    const vec2 blueT = loadPair(frame.partials, 2u * i + 1u);
+    return SplatPartial(vec3(loadPair(frame.partials, 2u * i), blueT.x), blueT.y);
+}
+
+uint64_t packPair(uint key, uint splat) { return packUint2x32(uvec2(splat, key)); }
 
 // Of a grid that may be wider than one row of workgroups.
 uint workgroupIndex() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
 // (gl_WorkGroupSize is not known where this is declared.)
 uint invocationIndex(uint groupSize) { return workgroupIndex() * groupSize + gl_LocalInvocationIndex; }
+
+// The splat of a pair in a sorted list.
+uint pairSplat(SplatFrame frame, uint side, uint pair) {
+#ifdef FLAT
+    return TilePairRef(frame.tilePairs[side]).v[pair].splat;
+#else
+    return WordRef(frame.pairs[side]).v[2u * pair];
+#endif
+}
 
 // The tile whose list holds a pair, or a batch: the last that starts at or before it, lists without pairs being empty.
 uint tileOfPair(SplatFrame frame, uint pair) {

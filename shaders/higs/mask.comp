@@ -44,11 +44,10 @@ void main() {
     const uint index = tileOfPair(frame, first);
     const SplatTile tile = TileRef(frame.tiles).v[index];
     const vec2 corner = vec2(index % frame.tileColumns * SPLAT_MACRO_WIDTH, index / frame.tileColumns * SPLAT_MACRO_HEIGHT);
-    PairRef pairs = PairRef(frame.pairs[tile.side]);
     WordRef masks = WordRef(frame.masks);
     const uint count = min(tile.first + tile.count - first, SPLAT_MINI_BATCH);
     for (uint i = 0u; i < SPLAT_MINI_BATCH; ++i)
-        masks.v[first + i] = i < count ? hits(frame, pairs.v[first + i].splat, corner) : 0u;
+        masks.v[first + i] = i < count ? hits(frame, pairSplat(frame, tile.side, first + i), corner) : 0u;
     uint rows[32];
     [[unroll]] for (uint i = 0u; i < 32u; ++i)
         rows[i] = masks.v[first + i];

@@ -12,8 +12,6 @@ layout(local_size_x = 64) in;
 const uint PARTS = 64u;
 #endif
 
-bool before(SplatPair a, SplatPair b) { return a.key < b.key || (a.key == b.key && a.splat < b.splat); }
-
 void main() {
     const SplatFrame frame = FrameRef(push.frame).v;
     const uint part = invocationIndex(gl_WorkGroupSize.x), batch = part / PARTS;
@@ -33,18 +31,19 @@ void main() {
     uint low = max(int(begin - start) - int(stop - middle), 0), high = min(begin - start, middle - start);
     while (low < high) {
         const uint a = (low + high) / 2u, b = begin - start - 1u - a;
-        if (before(from.v[tile.first + middle + b], from.v[tile.first + start + a])) high = a;
+        if (from.v[tile.first + middle + b] < from.v[tile.first + start + a]) high = a;
         else low = a + 1u;
     }
+    if ((frame.flags & FRAME_PROFILING) != 0u) atomicAdd(StateRef(frame.state).v.sortMoves, end - begin);
     uint a = start + low, b = middle + (begin - start - low);
     for (uint i = begin; i < end; ++i) {
         bool first = b >= stop;
-        SplatPair pair;
+        uint64_t pair = ~0ul;
         if (!first) {
             pair = from.v[tile.first + b];
             if (a < middle) {
-                const SplatPair other = from.v[tile.first + a];
-                if (before(other, pair)) {
+                const uint64_t other = from.v[tile.first + a];
+                if (other < pair) {
                     first = true;
                     pair = other;
                 }

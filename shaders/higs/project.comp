@@ -16,7 +16,8 @@ struct Shape {
 };
 
 Shape loadShape(SplatArrays arrays, uint i) {
-    const uvec4 words = Uvec4Ref(arrays.shapes).v[i];
+    const uvec4 words = uvec4(unpackUint2x32(DoubleRef(arrays.shapes).v[2u * i]),
+                              unpackUint2x32(DoubleRef(arrays.shapes).v[2u * i + 1u]));
     const vec4 q = normalize(vec4(unpackSnorm2x16(words.x), unpackSnorm2x16(words.y)));
     const vec3 scale = arrays.scaleUnit * vec3(unpackHalf2x16(words.z), unpackHalf2x16(words.w).x);
     Shape shape;
@@ -96,7 +97,7 @@ void main() {
     const uint local = source.first + gl_LocalInvocationIndex, i = placement.first + local;
     if (local >= placement.arrays.count) return;
 
-    ProjectedSplat s = ProjectedSplat(vec2(0.0), vec3(1.0), SPLAT_SIGMA_LIMIT, vec3(0.0), 0.0, 0.0);
+    ProjectedSplat s = ProjectedSplat(vec2(0.0), vec3(1.0), SPLAT_SIGMA_LIMIT, vec3(0.0), 0.0, 0.0, 0u);
     const Shape shape = loadShape(placement.arrays, local);
     const vec4 p = vec4(Vec3Ref(placement.arrays.positions).v[local], 1.0);
     s.depth = dot(placement.depth, p);

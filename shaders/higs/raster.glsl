@@ -1,36 +1,21 @@
-// Blends the splats of a list into a render tile of 8 x 8 pixels, front to back.
-//
-// Eight neighbouring lanes of a subgroup draw a tile; each holds a column of eight pixels. They load eight splats at a
-// time, one each, and hand them to each other; there are no barriers and there is no shared memory. The subgroup may have
-// any size from eight on. A workgroup draws eight tiles side by side.
+// Blends splats into the pixels of render tiles, front to back. raster_lanes.glsl and raster_groups.glsl say who draws
+// which pixels: HEIGHT rows of a column each.
 #ifndef HIPR_HIGS_RASTER_GLSL
 #define HIPR_HIGS_RASTER_GLSL
 #include "higs/frame.glsl"
-#extension GL_KHR_shader_subgroup_basic : require
-#extension GL_KHR_shader_subgroup_shuffle : require
 
-layout(local_size_x = 64) in;
-
-const uint LANES_PER_TILE = 8u, HEIGHT = 8u;
+uvec2 pixelInTile();           // of the column's first pixel
+float largestOfTile(float v); // of all columns of the tile; not negative
 
 struct Column {
     float transmittance[HEIGHT];
     vec3 color[HEIGHT];
     uint median[HEIGHT]; // the splat that found a transmittance of 1/2 or more and was the last to do so
+#ifdef LIMITED
     float limit[HEIGHT]; // camera depth of what is opaque
+#endif
     uvec2 blends;        // tried, done
 };
-
-// Which tile of the workgroup this lane belongs to, which of its columns, and the subgroup's first lane of the tile.
-uint tileInGroup() { return (gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID) / LANES_PER_TILE; }
-uint laneInTile() { return gl_SubgroupInvocationID % LANES_PER_TILE; }
-uint firstLane() { return gl_SubgroupInvocationID - laneInTile(); }
-
-float largestOfTile(float v) {
-    v = max(v, subgroupShuffle(v, firstLane() + (laneInTile() ^ 1u)));
-    v = max(v, subgroupShuffle(v, firstLane() + (laneInTile() ^ 2u)));
-    return max(v, subgroupShuffle(v, firstLane() + (laneInTile() ^ 4u)));
-}
 
 Column emptyColumn(SplatFrame frame, uvec2 pixel) {
     Column column;
@@ -38,11 +23,13 @@ Column emptyColumn(SplatFrame frame, uvec2 pixel) {
         column.transmittance[y] = 1.0;
         column.color[y] = vec3(0.0);
         column.median[y] = NO_SPLAT;
+#ifdef LIMITED
         column.limit[y] = 3.402823466e38;
         if (frame.depthLimit != 0ul && pixel.x < frame.width && pixel.y + y < frame.height) {
             const float depth = FloatRef(frame.depthLimit).v[(pixel.y + y) * frame.width + pixel.x];
             if (depth > 0.0) column.limit[y] = depth;
         }
+#endif
     }
     column.blends = uvec2(0u);
     return column;
@@ -57,88 +44,44 @@ float largestTransmittance(Column column) {
 
 // 2^-sigma for sigma in [0, 8): a polynomial for 2^(-sigma / 8), fitted to a relative error of 3e-6, squared three times.
 float alphaOf(float sigma) {
-    const float x = sigma * -0.125;
-    float p = fma(x, fma(x, fma(x, fma(x, 0.00683189154, 0.0532235721), 0.239456741), 0.693063569), 1.0);
+    float p = fma(sigma, fma(sigma, fma(sigma, fma(sigma, 1.66794227e-6, -1.03952289e-4), 3.74151158e-3), -8.66329461e-2), 1.0);
     p *= p;
     p *= p;
     return p * p;
 }
 
-// `d`: from the splat's mean to the middle of the column's first pixel.
+// `d`: from the splat's mean to the middle of the column's first pixel. Along the column sigma is a quadratic polynomial.
+// There are no branches: where half the rows are touched, as in tiles of this size, they cost a CPU more than they save.
 void blend(inout Column column, vec2 d, vec3 shape, float bias, vec3 color, float depth, uint splat) {
     const float u = fma(shape.x, d.x, shape.y * d.y), v = shape.z * d.y;
+    const float start = fma(u, u, fma(v, v, bias)), slope = 2.0 * fma(shape.y, u, shape.z * v);
+    const float curve = fma(shape.y, shape.y, shape.z * shape.z);
     [[unroll]] for (uint y = 0u; y < HEIGHT; ++y) {
-        const float uy = fma(shape.y, float(y), u), vy = fma(shape.z, float(y), v);
-        const float sigma = fma(uy, uy, fma(vy, vy, bias));
+        const float sigma = fma(float(y), fma(float(y), curve, slope), start);
+#ifdef LIMITED
         const bool touched = sigma < SPLAT_SIGMA_LIMIT && depth <= column.limit[y];
-#ifdef COUNT_BLENDS
+#else
+        const bool touched = sigma < SPLAT_SIGMA_LIMIT;
+#endif
+#ifdef TALLY
         ++column.blends.x;
         if (touched) ++column.blends.y;
 #endif
-        if (touched) {
-            const float t = column.transmittance[y], weight = alphaOf(sigma) * t;
-            column.color[y] = fma(vec3(weight), color, column.color[y]);
-            if (t >= 0.5) column.median[y] = splat;
-            column.transmittance[y] = max(t - weight, 0.0);
-        }
+        const float t = column.transmittance[y], weight = touched ? alphaOf(sigma) * t : 0.0;
+        column.color[y] = fma(vec3(weight), color, column.color[y]);
+        column.median[y] = touched && t >= 0.5 ? splat : column.median[y];
+        column.transmittance[y] = t - weight;
     }
 }
 
-// Blends up to eight pairs: this lane's is `mine` if it is one of the first `count` lanes.
-void blendEight(SplatFrame frame, PairRef pairs, uint mine, uint count, vec2 center, inout Column column) {
-    uint splat = 0u;
-    ProjectedSplat s = ProjectedSplat(vec2(0.0), vec3(0.0), 0.0, vec3(0.0), 0.0, 0.0);
-    if (laneInTile() < count) {
-        splat = pairs.v[mine].splat;
-        s = loadSplat(frame, splat);
-    }
-    for (uint i = 0u; i < count; ++i) {
-        const uint from = firstLane() + i;
-        const vec2 d = center - subgroupShuffle(s.mean, from);
-        blend(column, d, subgroupShuffle(s.shape, from), subgroupShuffle(s.bias, from), subgroupShuffle(s.color, from),
-              subgroupShuffle(s.depth, from), subgroupShuffle(splat, from));
-    }
+// Number of a render tile in its macro-tile.
+uint renderTileOf(uvec2 corner) {
+    const uvec2 within = corner % uvec2(SPLAT_MACRO_WIDTH, SPLAT_MACRO_HEIGHT) / SPLAT_TILE;
+    return within.y * (SPLAT_MACRO_WIDTH / SPLAT_TILE) + within.x;
 }
 
-// Blends the hits among `count` pairs from `first` on, of a list whose masks are known; `tile` is the bit's word.
-void blendHits(SplatFrame frame, uint side, uint first, uint count, uint tile, vec2 center, inout Column column) {
-    PairRef pairs = PairRef(frame.pairs[side]);
-    WordRef masks = WordRef(frame.masks);
-    const uint end = (count + SPLAT_MINI_BATCH - 1u) / SPLAT_MINI_BATCH;
-    uint mini = 0u, word = 0u, words = 0u;
-    bool more = true;
-    while (more) {
-        uint filled = 0u, mine = 0u;
-        while (filled < LANES_PER_TILE && more) {
-            if (word != 0u) {
-                const uint hit = first + (mini - 1u) * SPLAT_MINI_BATCH + uint(findLSB(word));
-                if (laneInTile() == filled) mine = hit;
-                word &= word - 1u;
-                ++filled;
-            } else if (mini < end) {
-                const uint next = mini % LANES_PER_TILE;
-                if (next == 0u) {
-                    words = 0u;
-                    const uint own = mini + laneInTile();
-                    if (own < end) words = masks.v[first + own * SPLAT_MINI_BATCH + tile];
-                }
-                word = subgroupShuffle(words, firstLane() + next);
-                ++mini;
-            } else
-                more = false;
-        }
-        blendEight(frame, pairs, mine, filled, center, column);
-        more = more && largestOfTile(largestTransmittance(column)) >= SPLAT_OPAQUE;
-    }
-}
-
-// Blends all of `count` pairs from `first` on.
-void blendAll(SplatFrame frame, uint side, uint first, uint count, vec2 center, inout Column column) {
-    PairRef pairs = PairRef(frame.pairs[side]);
-    for (uint i = 0u; i < count; i += LANES_PER_TILE) {
-        blendEight(frame, pairs, first + i + laneInTile(), min(count - i, LANES_PER_TILE), center, column);
-        if (largestOfTile(largestTransmittance(column)) < SPLAT_OPAQUE) break;
-    }
+uint partialOf(uint batch, uint renderTile, uvec2 pixel) {
+    return (batch * 32u + renderTile) * 64u + pixel.y * SPLAT_TILE + pixel.x;
 }
 
 // The placement a splat belongs to.
@@ -152,23 +95,40 @@ uint placementOf(SplatFrame frame, uint splat) {
     return first;
 }
 
-SplatPixel pixelOf(SplatFrame frame, vec3 color, float transmittance, uint median) {
-    SplatPixel pixel = SplatPixel(color, transmittance, 0.0, -1, -1, NO_SPLAT);
-    if (transmittance >= 0.5 || median == NO_SPLAT) return pixel;
-    const uint index = placementOf(frame, median);
-    pixel.depth = loadSplat(frame, median).depth;
-    pixel.primId = PlacementRef(frame.placements).v[index].primId;
-    pixel.instanceId = PlacementRef(frame.placements).v[index].instanceId;
-    pixel.splat = median - PlacementRef(frame.placements).v[index].first;
-    return pixel;
-}
-
-void storeColumn(SplatFrame frame, uvec2 pixel, Column column) {
+// Tells the median splats of pixels where they were written as numbers among all.
+void nameMedians(SplatFrame frame, uvec2 pixel) {
     for (uint y = 0u; y < HEIGHT; ++y) {
         const uvec2 at = pixel + uvec2(0u, y);
         if (any(lessThan(at, frame.cropLo)) || any(greaterThanEqual(at, frame.cropHi))) continue;
-        PixelRef(frame.pixels).v[at.y * frame.width + at.x] =
-            pixelOf(frame, column.color[y], column.transmittance[y], column.median[y]);
+        const uint i = at.y * frame.width + at.x, median = loadPixelSplat(frame, i);
+        if (median == NO_SPLAT) continue;
+        PlacementRef placement = PlacementRef(frame.placements);
+        const uint index = placementOf(frame, median);
+        storePixelMedian(frame, i, loadSplat(frame, median).depth, placement.v[index].primId,
+                         placement.v[index].instanceId, median - placement.v[index].first);
     }
+}
+
+// Whether the render tile at `corner` has to be written: not if it is empty and was left empty before.
+bool mustWrite(SplatFrame frame, uvec2 corner, bool empty_) {
+    const uint index = corner.y / SPLAT_TILE * ((frame.width + SPLAT_TILE - 1u) / SPLAT_TILE) + corner.x / SPLAT_TILE;
+    WordRef emptied = WordRef(frame.emptied);
+    // All have read the flag before one changes it.
+    const bool wasEmpty = largestOfTile(emptied.v[index] != 0u ? 1.0 : 0.0) > 0.0;
+    if (pixelInTile() == uvec2(0u)) emptied.v[index] = empty_ ? 1u : 0u;
+    return !(empty_ && wasEmpty);
+}
+
+void storeColumn(SplatFrame frame, uvec2 pixel, Column column) {
+    bool named = false;
+    [[unroll]] for (uint y = 0u; y < HEIGHT; ++y) {
+        const uvec2 at = pixel + uvec2(0u, y);
+        const float t = max(column.transmittance[y], 0.0); // alphas are right to 3e-5
+        const uint median = t < 0.5 ? column.median[y] : NO_SPLAT;
+        named = named || median != NO_SPLAT;
+        if (all(greaterThanEqual(at, frame.cropLo)) && all(lessThan(at, frame.cropHi)))
+            storePixel(frame, at.y * frame.width + at.x, SplatPixel(column.color[y], t, 0.0, -1, -1, median));
+    }
+    if (named) nameMedians(frame, pixel);
 }
 #endif

@@ -10,14 +10,16 @@
 #ifdef LANES
 layout(local_size_x = 8) in;
 
-const uint DIGIT_BITS = 8u, DIGITS = 1u << DIGIT_BITS;
+const uint DIGIT_BITS = 8u, DIGITS = SPLAT_DIGITS;
+
+uint keyOf(PairRef pairs, uint i) { return WordRef(uint64_t(pairs)).v[2u * i + 1u]; }
 
 // Of the batch's keys above the least: as many bits as differ.
 uint keyBits(PairRef pairs, uint first, uint count, out uint least) {
     least = 0xffffffffu;
     uint most = 0u;
     for (uint i = 0u; i < count; ++i) {
-        const uint key = pairs.v[first + i].key;
+        const uint key = keyOf(pairs, first + i);
         least = min(least, key);
         most = max(most, key);
     }
@@ -29,7 +31,7 @@ void sortDigit(PairRef from, PairRef to, uint first, uint count, uint least, uin
     for (uint d = 0u; d < DIGITS; ++d)
         places[d] = 0u;
     for (uint i = 0u; i < count; ++i)
-        places[((from.v[first + i].key - least) >> shift) & (DIGITS - 1u)] += 1u;
+        places[((keyOf(from, first + i) - least) >> shift) & (DIGITS - 1u)] += 1u;
     uint sum = 0u;
     for (uint d = 0u; d < DIGITS; ++d) {
         const uint n = places[d];
@@ -37,8 +39,8 @@ void sortDigit(PairRef from, PairRef to, uint first, uint count, uint least, uin
         sum += n;
     }
     for (uint i = 0u; i < count; ++i) {
-        const SplatPair pair = from.v[first + i];
-        const uint d = ((pair.key - least) >> shift) & (DIGITS - 1u);
+        const uint64_t pair = from.v[first + i];
+        const uint d = ((unpackUint2x32(pair).y - least) >> shift) & (DIGITS - 1u);
         const uint place = places[d];
         places[d] = place + 1u;
         to.v[first + place] = pair;
@@ -59,19 +61,19 @@ void main() {
         sortDigit(PairRef(frame.pairs[side]), PairRef(frame.pairs[1u - side]), first, count, least, shift);
         side = 1u - side;
     }
+    if ((frame.flags & FRAME_PROFILING) != 0u)
+        atomicAdd(StateRef(frame.state).v.sortMoves, count * ((bits + DIGIT_BITS - 1u) / DIGIT_BITS + side));
     for (uint i = 0u; i < count && side != 0u; ++i)
         PairRef(frame.pairs[0]).v[first + i] = PairRef(frame.pairs[1]).v[first + i];
 }
 #else
 layout(local_size_x = 256) in;
 
-shared SplatPair batchPairs[SPLAT_BATCH];
-
-bool before(SplatPair a, SplatPair b) { return a.key < b.key || (a.key == b.key && a.splat < b.splat); }
+shared uint64_t batchPairs[SPLAT_BATCH];
 
 void compareExchange(uint low, uint high) {
-    const SplatPair a = batchPairs[low], b = batchPairs[high];
-    if (!before(b, a)) return;
+    const uint64_t a = batchPairs[low], b = batchPairs[high];
+    if (a <= b) return;
     batchPairs[low] = b;
     batchPairs[high] = a;
 }
@@ -84,8 +86,7 @@ void main() {
     const uint first = tile.first + skipped, count = min(tile.count - skipped, SPLAT_BATCH);
     PairRef pairs = PairRef(frame.pairs[0]);
     for (uint i = gl_LocalInvocationIndex; i < SPLAT_BATCH; i += gl_WorkGroupSize.x) {
-        batchPairs[i] = SplatPair(0xffffffffu, 0xffffffffu);
-        if (i < count) batchPairs[i] = pairs.v[first + i];
+        batchPairs[i] = i < count ? pairs.v[first + i] : ~0ul;
     }
     barrier();
     for (uint run = 2u; run <= SPLAT_BATCH; run *= 2u) {
@@ -105,5 +106,7 @@ void main() {
     }
     for (uint i = gl_LocalInvocationIndex; i < count; i += gl_WorkGroupSize.x)
         pairs.v[first + i] = batchPairs[i];
+    if ((frame.flags & FRAME_PROFILING) != 0u && gl_LocalInvocationIndex == 0u)
+        atomicAdd(StateRef(frame.state).v.sortMoves, count);
 }
 #endif

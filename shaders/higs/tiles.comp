@@ -2,11 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "higs/frame.glsl"
+#include "higs/scan.glsl"
 
-const uint THREADS = 256u;
-layout(local_size_x = 256) in;
-
-shared uvec2 sums[THREADS];
 shared uint totalPairs, longest;
 
 uvec2 sizeOf(uint count) {
@@ -21,21 +18,6 @@ uint countOf(SplatFrame frame, uint tile) {
 #else
     return WordRef(frame.histogram).v[tile];
 #endif
-}
-
-// The sum of the invocations before this one (J. Hillis, G. Steele, "Data parallel algorithms", CACM 29(12), 1986).
-uvec2 scan(uvec2 own) {
-    const uint i = gl_LocalInvocationIndex;
-    uvec2 sum = own;
-    for (uint step_ = 1u; step_ < THREADS; step_ *= 2u) {
-        sums[i] = sum;
-        barrier();
-        if (i >= step_) sum += sums[i - step_];
-        barrier();
-    }
-    sums[i] = sum;
-    barrier();
-    return sum - own;
 }
 
 // After how many merges the sorted batches of a list are one.
@@ -60,15 +42,16 @@ void writeState(SplatFrame frame) {
     state.v.overflow = fits ? 0u : 1u;
     const uint batches = fits ? end.y : 0u, miniBatches = fits ? end.x / SPLAT_MINI_BATCH : 0u;
 #ifdef LANES
-    const uint groups = (batches + 7u) / 8u; // a lane a batch
+    const uint groups = (batches + 7u) / 8u, tilesPerGroup = 8u; // a lane sorts a batch
 #else
-    const uint groups = batches;
+    const uint groups = batches, tilesPerGroup = 1u;
 #endif
     state.v.sortGroups = uvec3(groups, 1u, 1u);
     for (uint i = 0u; i < SPLAT_MERGES; ++i)
         state.v.mergeGroups[i] = uvec3(i < merges ? groups : 0u, 1u, 1u);
     state.v.maskGroups = uvec3((miniBatches + 31u) / 32u, 1u, 1u);
-    state.v.partialGroups = uvec3(4u, batches, 1u);
+    // 65535 workgroups in a row are all that every device takes.
+    state.v.partialGroups = uvec3(32u / tilesPerGroup, min(batches, 32768u), (batches + 32767u) / 32768u);
 }
 
 void main() {

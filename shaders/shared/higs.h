@@ -33,6 +33,7 @@ HIPR_CONST uint SPLAT_CHUNKS = 256u;       // parts in which lanes bin splats
 HIPR_CONST uint SPLAT_BATCH = 1024u;       // pairs that are sorted, and in mode higs8 drawn, as one
 HIPR_CONST uint SPLAT_MINI_BATCH = 32u;    // pairs whose hits of one render tile are the bits of one word
 HIPR_CONST uint SPLAT_TILE = 8u;           // edge of a render tile in pixels
+HIPR_CONST uint SPLAT_DIGITS = 256u;       // of one pass of sorting
 HIPR_CONST uint SPLAT_MERGES = 14u;        // a list has up to SPLAT_BATCH << SPLAT_MERGES pairs
 HIPR_CONST uint SPLAT_MACRO_WIDTH = 64u;   // pixels of a macro-tile: 8 x 4 render tiles
 HIPR_CONST uint SPLAT_MACRO_HEIGHT = 32u;
@@ -84,6 +85,7 @@ struct ProjectedSplat {
     vec3 color;
     float depth;             // camera depth of the centre
     float key;               // by which splats are sorted, unless it depends on the ray; not negative
+    uint pad;                // kernels read and write pairs of words
 };
 
 // The same with shape, bias and colour in half precision.
@@ -105,13 +107,20 @@ struct SplatRay {
     vec3 pull;               // m times the centre, relative to the camera's origin
 };
 
-// (splat, tile) of a list: sorted by key, then by splat.
+// (splat, tile) of a list: sorted by key, then by splat, which is the order of these as 64-bit numbers.
 struct SplatPair {
-    uint key;                // bits of a float that is not negative
     uint splat;
+    uint key;                // bits of a float that is not negative
 };
 
-// A tile of the binning grid and its list. Lists start at multiples of SPLAT_MINI_BATCH.
+// The same in the flat modes, where all lists are sorted as one: by tile, key and splat.
+struct SplatTilePair {
+    uint key;
+    uint splat;
+    uint tile;
+};
+
+// A tile of the binning grid and its list. In modes with macro-tiles lists start at multiples of SPLAT_MINI_BATCH.
 struct SplatTile {
     uint first;              // pair
     uint count;
@@ -129,13 +138,14 @@ struct SplatPartial {
 struct SplatState {
     uvec3 sortGroups;        // one lane or workgroup a batch
     uvec3 maskGroups;
-    uvec3 partialGroups;     // one workgroup a quarter of a batch's render tiles
+    uvec3 partialGroups;     // workgroups that draw a batch's render tiles
     uvec3 mergeGroups[SPLAT_MERGES];
     uint pairs;              // of all lists, without gaps
     uint pairsEnd;           // with gaps; may exceed the capacity: then nothing is drawn
     uint batches;
     uint largestList;
     uint visible;            // while profiling
+    uint sortMoves;          // while profiling: pairs that sorting has moved
     uint overflow;
 };
 
@@ -149,13 +159,15 @@ struct SplatFrame {
     uint64_t tiles;          // SplatTile[tileColumns * tileRows]
     uint64_t tileMask;       // uint[tiles]: 0 where nothing is to be drawn
     uint64_t pairs[2];       // SplatPair[pairCapacity]
+    uint64_t tilePairs[2];   // SplatTilePair[pairCapacity], in flat modes
     uint64_t masks;          // uint[pairCapacity]: of each mini-batch one word a render tile
-    uint64_t partials;       // SplatPartial[batchCapacity][32][64]
+    uint64_t partials;       // SplatPartial[batchCapacity][32 render tiles][64 pixels], in mode higs8
     uint64_t pixels;         // SplatPixel[width * height]
+    uint64_t emptied;        // uint[render tiles]: 1 where the pixels hold the value of nothing
     uint64_t depthLimit;     // float[width * height], or 0
     uint64_t state;          // SplatState
     uint64_t camera;         // CameraRecord
-    uint64_t blends;         // uvec2[render tiles]: tried, done; while profiling
+    uint64_t blends;         // uvec2[tiles]: tried, done; while profiling
     uint placementCount;
     uint splatCount;         // rounded up to whole blocks for every placement
     uint width;
@@ -179,12 +191,14 @@ HIPR_CONST uint SORT_RAY_HIT_DISTANCE = 2u;
 HIPR_CONST uint FRAME_ANTIALIASED = 1u;
 HIPR_CONST uint FRAME_PROFILING = 2u;
 HIPR_CONST uint FRAME_PARALLEL = 4u;       // an orthographic camera
+HIPR_CONST uint FRAME_SQUARES = 8u;        // tiles are those that meet a square of 3 standard deviations
 
 // Push constants of every kernel of the pass.
 struct SplatPush {
     uint64_t frame;          // SplatFrame
-    uint first;              // project: block; merge: level; raster: tile row
-    uint count;
+    uint first;              // project: block; merge: level; raster: row of
+                             // render tiles; radix: shift
+    uint count;              // project, touch: block after the last; radix: which side is read
 };
 
 HIPR_SHARED_END

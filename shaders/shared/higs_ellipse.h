@@ -3,7 +3,7 @@
 // Points at distance d from the mean belong to the ellipse if (a d.x + b d.y)^2 + (c d.y)^2 <= reach, where a, b, c are
 // ProjectedSplat::shape. On the line d.y = y it spans x = (-b y -/+ sqrt(reach - (c y)^2)) / a; that is largest at
 // y = -b / c * sqrt(reach / (b^2 + c^2)) and smallest at the point opposite. A convex shape meets a row of tiles exactly
-// in those between its least and its largest x within the row. (The method: P. Hanson et al., "Speedy-Splat", CVPR 2025,
+// in those between its least and its largest x within the row. (The method: A. Hanson et al., "Speedy-Splat", CVPR 2025,
 // and AccuTile; docs/higs.md.)
 #ifndef HIPR_SHARED_HIGS_ELLIPSE_H
 #define HIPR_SHARED_HIGS_ELLIPSE_H

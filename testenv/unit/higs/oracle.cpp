@@ -174,13 +174,46 @@ OraclePixel blend(const std::vector<const Shown*>& ordered, const glm::dvec2& at
     return pixel;
 }
 
-} // namespace
-
-std::vector<OraclePixel> oraclePicture(const SplatScene& scene, glm::uvec2 tile, bool boxes) {
+std::vector<Shown> allShown(const SplatScene& scene) {
     std::vector<Shown> shown;
     for (size_t c = 0; c < scene.clouds.size(); ++c)
         for (size_t i = 0; i < scene.clouds[c].size(); ++i)
             if (Shown s; show(scene, c, i, &s)) shown.push_back(s);
+    return shown;
+}
+
+/// Least d^T inverse d over the points of a rectangle: 0, or on an edge, where it is a parabola.
+double leastDistance(const Shown& s, const glm::dvec2& lo, const glm::dvec2& hi) {
+    const glm::dvec2 a = lo - s.mean, b = hi - s.mean;
+    if (a.x <= 0 && b.x >= 0 && a.y <= 0 && b.y >= 0) return 0;
+    const glm::dmat2& m = s.inverse;
+    double least = 1e300;
+    const auto tryPoint = [&](const glm::dvec2& d) { least = std::min(least, glm::dot(d, m * d)); };
+    for (const double x : {a.x, b.x})
+        tryPoint({x, glm::clamp(-m[0][1] * x / m[1][1], a.y, b.y)});
+    for (const double y : {a.y, b.y})
+        tryPoint({glm::clamp(-m[0][1] * y / m[0][0], a.x, b.x), y});
+    return least;
+}
+
+} // namespace
+
+size_t oraclePairs(const SplatScene& scene, glm::uvec2 tile, bool boxes) {
+    size_t pairs = 0;
+    for (const Shown& s : allShown(scene)) {
+        const double reach = 2 * std::log(255 * s.opacity);
+        if (leastDistance(s, {0, 0}, {scene.width, scene.height}) > reach) continue; // not in the picture
+        for (uint32_t y = 0; y < scene.height; y += tile.y)
+            for (uint32_t x = 0; x < scene.width; x += tile.x) {
+                const glm::dvec2 lo(x, y), hi = lo + glm::dvec2(tile);
+                pairs += boxes ? inSquare(s, lo, hi) : leastDistance(s, lo, hi) <= reach;
+            }
+    }
+    return pairs;
+}
+
+std::vector<OraclePixel> oraclePicture(const SplatScene& scene, glm::uvec2 tile, bool boxes) {
+    const std::vector<Shown> shown = allShown(scene);
     std::vector<OraclePixel> picture(size_t(scene.width) * scene.height);
     for (uint32_t ty = 0; ty < scene.height; ty += tile.y)
         for (uint32_t tx = 0; tx < scene.width; tx += tile.x) {

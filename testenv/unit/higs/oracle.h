@@ -36,4 +36,7 @@ struct OraclePixel {
 /// in those that meet a square of 3 standard deviations (along the ellipse's longer axis) around it.
 std::vector<OraclePixel> oraclePicture(const SplatScene& scene, glm::uvec2 tile, bool boxes = false);
 
+/// How many (splat, tile) there are: ellipses of alpha = 1/255, or squares, against closed tiles.
+size_t oraclePairs(const SplatScene& scene, glm::uvec2 tile, bool boxes = false);
+
 } // namespace hipr::test

@@ -25,27 +25,6 @@ std::string formName(const ::testing::TestParamInfo<Form>& info) {
            (info.param.half ? "_half" : "");
 }
 
-std::vector<SplatInstance> instancesOf(const SplatScene& scene) {
-    std::vector<SplatInstance> instances;
-    for (size_t i = 0; i < scene.clouds.size(); ++i)
-        instances.push_back({std::make_shared<SplatStore>(testDevice(), scene.clouds[i]),
-                             glm::mat4x3(scene.transform(i)), int(10 + i), int(100 + i), true});
-    return instances;
-}
-
-SplatView viewOf(const SplatScene& scene) {
-    SplatView view;
-    view.camera = *cameraRecord(scene.camera);
-    view.width = scene.width;
-    view.height = scene.height;
-    view.antialiased = scene.antialiased;
-    return view;
-}
-
-std::vector<gpu::SplatPixel> pixelsOf(const SplatPass& pass, const SplatScene& scene) {
-    return toHost<gpu::SplatPixel>(pass.pixels(), size_t(scene.width) * scene.height);
-}
-
 struct Error {
     double largest = 0;  ///< of colours and transmittance, where no splat just reaches 1/255
     double psnr = 0;     ///< of colours, against 1
@@ -114,12 +93,19 @@ protected:
     SplatPass pass;
 };
 
-INSTANTIATE_TEST_SUITE_P(, SplatPictures,
-                         ::testing::Values(Form{SplatMode::Higs8Carry, SplatKernels::Lanes, false},
-                                           Form{SplatMode::Higs8Carry, SplatKernels::Lanes, true},
-                                           Form{SplatMode::Higs8Carry, SplatKernels::Workgroups, false},
-                                           Form{SplatMode::Higs8Carry, SplatKernels::Workgroups, true}),
-                         formName);
+std::vector<Form> allForms() {
+    std::vector<Form> forms;
+    for (const SplatMode mode : {SplatMode::Flat16Aabb, SplatMode::Flat16Exact, SplatMode::Flat8Exact,
+                                 SplatMode::Higs8, SplatMode::Higs8Carry})
+        for (const SplatKernels kernels : {SplatKernels::Lanes, SplatKernels::Workgroups})
+            forms.push_back({mode, kernels, false});
+    forms.push_back({SplatMode::Higs8, SplatKernels::Workgroups, true});
+    forms.push_back({SplatMode::Higs8Carry, SplatKernels::Lanes, true});
+    forms.push_back({SplatMode::Flat8Exact, SplatKernels::Lanes, true});
+    return forms;
+}
+
+INSTANTIATE_TEST_SUITE_P(, SplatPictures, ::testing::ValuesIn(allForms()), formName);
 
 TEST_P(SplatPictures, HarmonicsOfDegrees) {
     for (uint32_t degree = 0; degree <= 3; ++degree) {

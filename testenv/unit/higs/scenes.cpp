@@ -4,6 +4,8 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "testenv/unit/sampling/gpu.h"
+
 namespace hipr::test {
 
 float Numbers::operator()(float lo, float hi) {
@@ -52,6 +54,27 @@ SplatScene sceneOf(SplatCloud cloud) {
     scene.clouds.push_back(std::move(cloud));
     scene.camera = perspectiveCamera(double(scene.width) / scene.height);
     return scene;
+}
+
+std::vector<SplatInstance> instancesOf(const SplatScene& scene) {
+    std::vector<SplatInstance> instances;
+    for (size_t i = 0; i < scene.clouds.size(); ++i)
+        instances.push_back({std::make_shared<SplatStore>(testDevice(), scene.clouds[i]),
+                             glm::mat4x3(scene.transform(i)), int(10 + i), int(100 + i), true});
+    return instances;
+}
+
+SplatView viewOf(const SplatScene& scene) {
+    SplatView view;
+    view.camera = *cameraRecord(scene.camera);
+    view.width = scene.width;
+    view.height = scene.height;
+    view.antialiased = scene.antialiased;
+    return view;
+}
+
+std::vector<gpu::SplatPixel> pixelsOf(const SplatPass& pass, const SplatScene& scene) {
+    return toHost<gpu::SplatPixel>(pass.pixels(), size_t(scene.width) * scene.height);
 }
 
 } // namespace hipr::test

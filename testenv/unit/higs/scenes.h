@@ -33,4 +33,9 @@ CameraDesc orthographicCamera(double aspect);
 /// One cloud before the perspective camera.
 SplatScene sceneOf(SplatCloud cloud);
 
+/// For the splat pass; cloud i has primId 10 + i and instanceId 100 + i.
+std::vector<SplatInstance> instancesOf(const SplatScene& scene);
+SplatView viewOf(const SplatScene& scene);
+std::vector<gpu::SplatPixel> pixelsOf(const SplatPass& pass, const SplatScene& scene);
+
 } // namespace hipr::test

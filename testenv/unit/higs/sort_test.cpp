@@ -64,7 +64,7 @@ void expectSorted(const std::vector<uint32_t>& lengths, bool lanes, uint32_t dif
                 differentKeys ? float(uint32_t(random(0, float(differentKeys)))) * 0.37f : random(0.f, 1e30f);
             uint32_t bits;
             std::memcpy(&bits, &key, 4);
-            pairs[tiles[t].first + i] = {bits, total++};
+            pairs[tiles[t].first + i] = {total++, bits};
         }
     }
     EXPECT_EQ(state.pairs, total);

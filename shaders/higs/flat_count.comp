@@ -1,0 +1,16 @@
+// Flat modes: how many pairs each chunk of splats has.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "higs/flat_bin.glsl"
+
+uint pairs = 0u;
+
+void visit(SplatFrame frame, uint chunk, uint tile, uint splat, ProjectedSplat s) { ++pairs; }
+
+void main() {
+    const SplatFrame frame = FrameRef(push.frame).v;
+    const uint chunk = invocationIndex(gl_WorkGroupSize.x);
+    if (chunk >= SPLAT_CHUNKS) return;
+    visitChunk(frame, chunk);
+    WordRef(frame.histogram).v[chunk] = pairs;
+}
