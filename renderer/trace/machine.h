@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "renderer/higs/splat_pass.h"
 #include "renderer/trace/path_tracer.h"
 #include "renderer/trace/reprojection.h"
 #include "renderer/vulkan/device.h"
@@ -15,6 +16,7 @@ struct Machine {
     std::string key; ///< what it was made for
     std::unique_ptr<Device> device;
     PathTracer tracer;
+    std::unique_ptr<SplatPass> splats = {};          ///< once there were some
     std::unique_ptr<Reprojection> reprojection = {}; ///< once a mode needed it
 };
 

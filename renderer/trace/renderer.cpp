@@ -50,7 +50,7 @@ RendererImpl::RendererImpl(MachinePtr machine, const RendererOptions& options,
                            const RendererInternals& internals)
     : _machine(std::move(machine)), _device(_machine->device.get()), _internals(internals),
       _scene(*_device, options.assets), _film(*_device, _scene.names()), _tracer(_machine->tracer),
-      _edits(*_device, _scene, _film, _tracer, _schedule, _log), _splats(*_device),
+      _edits(*_device, _scene, _film, _tracer, _schedule, _log), _splats(*_device, _machine->splats),
       _batch(_tracer.capacity()) {
     prepareMode();
     selectTraversal();

@@ -58,7 +58,7 @@ void SplatLayer::setScene(const SplatTable& table, const std::vector<SplatPlacem
     _instances = std::move(instances);
     _pending = true;
     if (_instances.empty()) _drawn = false;
-    if (_pass) _pass->setInstances(_instances);
+    if (_ready) _pass->setInstances(_instances);
 }
 
 void SplatLayer::setView(const gpu::CameraRecord& camera, uint32_t width, uint32_t height) {
@@ -66,7 +66,7 @@ void SplatLayer::setView(const gpu::CameraRecord& camera, uint32_t width, uint32
     _view.width = width;
     _view.height = height;
     _pending = true;
-    if (_pass) _pass->setView(_view);
+    if (_ready) _pass->setView(_view);
 }
 
 void SplatLayer::setSettings(const Settings& settings) {
@@ -75,7 +75,7 @@ void SplatLayer::setSettings(const Settings& settings) {
     _mode = mode;
     _view.antialiased = settings.splatAntialiasing;
     _pending = true;
-    if (!_pass) return;
+    if (!_ready) return;
     _pass->setMode(_mode);
     _pass->setView(_view);
 }
@@ -83,20 +83,33 @@ void SplatLayer::setSettings(const Settings& settings) {
 void SplatLayer::setDepths(VkDeviceAddress cameraDepths) {
     _depths = cameraDepths;
     _pending = true;
-    if (_pass) _pass->setDepthLimit(cameraDepths);
+    if (_ready) _pass->setDepthLimit(cameraDepths);
+}
+
+SplatLayer::~SplatLayer() {
+    if (_compiling.valid()) _compiling.wait();
+    if (_ready) _pass->setInstances({});
 }
 
 bool SplatLayer::ready(std::chrono::milliseconds patience) {
-    if (_pass) return true;
-    if (!_compiling.valid())
-        _compiling = std::async(std::launch::async, [this] { return std::make_unique<SplatPass>(_device); });
-    if (_compiling.wait_for(patience) != std::future_status::ready) return false;
-    _pass = _compiling.get();
+    if (_ready) return true;
+    if (!_pass) {
+        if (!_compiling.valid())
+            _compiling =
+                std::async(std::launch::async, [this] { return std::make_unique<SplatPass>(_device); });
+        if (_compiling.wait_for(patience) != std::future_status::ready) return false;
+        _pass = _compiling.get();
+    }
+    prepare();
+    return true;
+}
+
+void SplatLayer::prepare() {
+    _ready = true;
     _pass->setMode(_mode);
     _pass->setView(_view);
     _pass->setInstances(_instances);
     _pass->setDepthLimit(_depths);
-    return true;
 }
 
 bool SplatLayer::render(const std::atomic<bool>& cancel) {

@@ -20,7 +20,11 @@ namespace hipr {
 
 class SplatLayer {
 public:
-    explicit SplatLayer(Device& device) : _device(device) {}
+    /// `pass`: outlives the layer, which makes it when it is first needed and leaves it without splats.
+    SplatLayer(Device& device, std::unique_ptr<SplatPass>& pass) : _device(device), _pass(pass) {}
+    ~SplatLayer();
+    SplatLayer(const SplatLayer&) = delete;
+    SplatLayer& operator=(const SplatLayer&) = delete;
 
     /// What stands in the scene; draws again what has changed.
     void setScene(const SplatTable& table, const std::vector<SplatPlacement>& placements);
@@ -45,13 +49,14 @@ public:
     /// Device memory of the clouds.
     uint64_t bytes() const;
     /// Of the last render().
-    const SplatStatistics* statistics() const { return _pass ? &_pass->statistics() : nullptr; }
+    const SplatStatistics* statistics() const { return _ready ? &_pass->statistics() : nullptr; }
 
 private:
     struct Stored {
         uint32_t revision = 0;
         std::shared_ptr<const SplatStore> store; ///< null: there was no memory for it
     };
+    void prepare();
     void updateStores(const SplatTable& table);
     void blendColor(float* rgba) const;
     void blendAlbedo(float* rgb) const;
@@ -65,9 +70,9 @@ private:
     SplatMode _mode = SplatMode::Automatic;
     VkDeviceAddress _depths = 0;
     std::future<std::unique_ptr<SplatPass>> _compiling;
-    std::unique_ptr<SplatPass> _pass;
+    std::unique_ptr<SplatPass>& _pass;
     std::vector<gpu::SplatPixel> _pixels; ///< as drawn, for the host
-    bool _pending = false, _failed = false, _drawn = false;
+    bool _pending = false, _failed = false, _drawn = false, _ready = false;
 };
 
 } // namespace hipr

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "plugin/record/edits.h"
+#include "pxr/base/plug/registry.h"
 #include "pxr/usd/sdf/changeBlock.h"
 #include "pxr/usd/usd/stageLoadRules.h"
 
@@ -11,6 +12,7 @@ PXR_NAMESPACE_USING_DIRECTIVE
 namespace hipr::test {
 
 Scene::Scene(const std::string& name) {
+    [[maybe_unused]] static const auto plugins = PlugRegistry::GetInstance().RegisterPlugins(HIPR_PLUGIN_DIR);
     const std::string path = HIPR_SOURCE_DIR "/testenv/edit/scenes/" + name;
     _stage = UsdStage::Open(path);
     if (!_stage) throw std::runtime_error("cannot open " + path);

@@ -184,3 +184,29 @@ TEST(Splats, FollowMeshesAndCamera) {
     stage.render();
     EXPECT_EQ(stage.read<int>(AovKind::PrimId).values.size(), size_t(Size) * Size / 2);
 }
+TEST(Splats, OfAllModesLookAlike) {
+    SplatCloud cloud = ball(Green);
+    cloud.positions.clear(), cloud.scales.clear(), cloud.opacities.clear(), cloud.coefficients.clear();
+    for (int i = 0; i < 500; ++i) {
+        const float t = 0.1f * float(i);
+        cloud.positions.push_back({1.2f * std::sin(3 * t), 1.2f * std::cos(2.1f * t), 1.5f * std::sin(t)});
+        cloud.scales.push_back({0.05f + 0.03f * std::sin(t), 0.1f, 0.02f});
+        cloud.opacities.push_back(0.5f + 0.4f * std::cos(7 * t));
+        cloud.coefficients.push_back({std::sin(t), std::cos(t), std::sin(5 * t)});
+    }
+    SplatStage stage;
+    stage.addSplats(cloud, {translation(0, 0, 0)});
+    stage.render();
+    const ColorPicture automatic = stage.color();
+    save(automatic, "splats_auto");
+    for (const char* mode : {"flat16-exact", "flat8-exact", "higs8", "higs8-carry"}) {
+        Settings settings = SplatStage::withSamples(4);
+        settings.splatMode = mode;
+        stage.settings(settings);
+        stage.render();
+        const ColorPicture picture = stage.color();
+        for (size_t i = 0; i < picture.values.size(); ++i)
+            for (int c = 0; c < 4; ++c)
+                ASSERT_NEAR(picture.values[i][c], automatic.values[i][c], 2e-3f) << mode << ' ' << i;
+    }
+}
