@@ -1,187 +1,177 @@
 #include "testenv/bench/splat_bench.h"
 
 #include <algorithm>
-#include <cmath>
-#include <iomanip>
-#include <numeric>
-#include <ostream>
-#include <random>
-#include <sstream>
+#include <fstream>
+#include <iostream>
+#include <stdexcept>
 
-#include <glm/gtc/matrix_transform.hpp>
-
-#include "renderer/scene/camera.h"
+#include <sys/resource.h>
 
 namespace hipr::bench {
+
 namespace {
 
-/// The view of `frame`: each a little further around, so that no frame is like the one before.
-SplatView viewOf(glm::uvec2 size, int frame) {
-    CameraDesc camera;
-    const double angle = 1e-4 * frame;
-    const glm::dvec3 eye(2.6 * std::sin(angle), 1.1, 2.6 * std::cos(angle));
-    camera.worldToView = glm::lookAt(eye, glm::dvec3(0, 0.5, 0), glm::dvec3(0, 1, 0));
-    camera.projection = glm::perspective(glm::radians(60.0), double(size.x) / size.y, 0.01, 1000.0);
-    SplatView view;
-    view.camera = *cameraRecord(camera);
-    view.width = size.x;
-    view.height = size.y;
-    return view;
+double peakMiB() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return double(usage.ru_maxrss) / 1024;
 }
 
-glm::mat4x3 placement(bool capture) {
-    return capture ? glm::mat4x3(glm::scale(glm::mat4(1.f), glm::vec3(1, -1, -1))) : glm::mat4x3(1.f);
+/// What is timed repeatedly, on the clock and in processor time, in milliseconds.
+struct Times {
+    std::vector<double> clock, processor;
+    void add(const Timing& t) {
+        clock.push_back(1e3 * t.clock);
+        processor.push_back(1e3 * t.processor);
+    }
+};
+
+void writePicture(const std::string& path, Device& device, const SplatPass& pass, glm::uvec2 size) {
+    std::vector<gpu::SplatPixel> pixels(size_t(size.x) * size.y);
+    device.download(pass.pixels(), pixels.data(), pixels.size() * sizeof(pixels[0]));
+    std::ofstream out(path, std::ios::binary);
+    out << "P6\n" << size.x << " " << size.y << "\n255\n";
+    for (uint32_t row = size.y; row-- > 0;)
+        for (uint32_t x = 0; x < size.x; ++x)
+            for (int c = 0; c < 3; ++c)
+                out.put(char(
+                    uint8_t(glm::clamp(pixels[size_t(row) * size.x + x].color[c], 0.f, 1.f) * 255.f + 0.5f)));
+    if (!out.flush()) throw std::runtime_error("cannot write " + path);
 }
 
-void benchModes(Device& device, const SplatInstance& instance, const std::string& name, glm::uvec2 size,
-                const SplatBenchOptions& options, SplatReport& report) {
-    SplatPass pass(device, options.pass);
-    pass.setInstances({instance});
-    std::vector<std::vector<double>> clock(options.modes.size()), processor(options.modes.size());
-    int frame = 0;
-    for (int i = -1; i < options.repetitions; ++i) // the first round compiles kernels and makes lists grow
-        for (size_t m = 0; m < options.modes.size(); ++m) {
-            pass.setMode(options.modes[m]);
-            pass.setView(viewOf(size, frame++));
-            const Timing time = timed([&] { pass.render(); });
-            if (i < 0) continue;
-            clock[m].push_back(1e3 * time.clock);
-            processor[m].push_back(1e3 * time.processor);
+std::string fileName(const SplatScene& scene, const SplatRow& row) {
+    std::string name =
+        scene.name + "_" + row.mode + "_" + std::to_string(row.size.x) + "x" + std::to_string(row.size.y);
+    std::replace(name.begin(), name.end(), ' ', '_');
+    return name + ".ppm";
+}
+
+class Bench {
+public:
+    Bench(Device& device, const SplatScene& scene, const SplatBenchOptions& options)
+        : _device(device), _scene(scene), _options(options), _pass(device, options.pass) {}
+
+    SplatReport run() {
+        SplatReport report;
+        report.scene = _scene.name;
+        report.splats = _scene.cloud.size();
+        report.degree = _scene.cloud.shDegree;
+        report.loadSeconds = _scene.loadSeconds;
+        report.storeSeconds =
+            timed([&] { _store = std::make_shared<SplatStore>(_device, _scene.cloud); }).clock;
+        report.storeBytes = _store->bytes();
+        _pass.setInstances({{_store, _scene.objectToWorld, 1, 0}});
+        for (const glm::uvec2 size : _options.sizes)
+            for (SplatRow& row : rowsAt(size))
+                report.rows.push_back(std::move(row));
+        if (_options.move) report.moved = move(_options.sizes[0]);
+        report.deviceBytes = _device.memory().total();
+        report.peakMiB = peakMiB();
+        return report;
+    }
+
+private:
+    /// A whole frame; another view each time, since what has not changed is not drawn again.
+    Timing frame(SplatMode mode, glm::uvec2 size) {
+        _pass.setMode(mode);
+        _pass.setView(splatView(size.x, size.y, ++_turn));
+        return timed([&] { _pass.render(); });
+    }
+
+    /// The same view for all modes, so that their counts are comparable.
+    SplatStatistics profile(SplatMode mode, glm::uvec2 size) {
+        _pass.setProfiling(true);
+        if (!_options.countOnly) frame(mode, size); // compiles what counts blends
+        _pass.setMode(mode);
+        _pass.setView(splatView(size.x, size.y));
+        _pass.render();
+        _pass.setProfiling(false);
+        return _pass.statistics();
+    }
+
+    std::vector<SplatRow> rowsAt(glm::uvec2 size) {
+        std::cerr << _scene.name << ", " << size.x << " x " << size.y << "\n";
+        std::vector<SplatRow> rows;
+        for (const SplatMode mode : _options.modes) {
+            if (!_options.countOnly) frame(mode, size); // compiles, and makes buffers grow
+            SplatRow row;
+            row.mode = splatModeName(mode);
+            row.size = size;
+            row.statistics = profile(mode, size);
+            if (!_options.pictures.empty())
+                writePicture(_options.pictures + "/" + fileName(_scene, row), _device, _pass, size);
+            rows.push_back(std::move(row));
         }
-    pass.setProfiling(true);
-    for (size_t m = 0; m < options.modes.size(); ++m) {
-        pass.setMode(options.modes[m]);
-        for (int i = 0; i < 2; ++i) { // the first compiles what counts blends
-            pass.setView(viewOf(size, frame++));
-            pass.render();
+        if (!_options.countOnly) timeRows(rows, size);
+        return rows;
+    }
+
+    void timeRows(std::vector<SplatRow>& rows, glm::uvec2 size) {
+        std::vector<Times> times(rows.size());
+        double spent = 0;
+        for (int turn = 0; turn < _options.repetitions; ++turn) {
+            if (turn > 0 && _options.budget > 0 && spent > _options.budget) break;
+            for (size_t i = 0; i < rows.size(); ++i) {
+                times[i].add(frame(_options.modes[i], size));
+                spent += times[i].clock.back() / 1e3;
+            }
         }
-        report.frames.push_back(
-            {name, size, options.modes[m], pass.statistics(), spread(clock[m]), spread(processor[m])});
+        for (size_t i = 0; i < rows.size(); ++i) {
+            rows[i].frameMs = spread(times[i].clock);
+            rows[i].processorMs = spread(times[i].processor);
+        }
     }
-}
 
-/// Every tenth splat of a cloud.
-SplatCloud tenthOf(const SplatCloud& cloud) {
-    SplatCloud part;
-    part.shDegree = cloud.shDegree;
-    const size_t each = shCoefficients(cloud.shDegree);
-    for (size_t i = 0; i < cloud.size(); i += 10) {
-        part.positions.push_back(cloud.positions[i]);
-        part.orientations.push_back(cloud.orientations[i]);
-        part.scales.push_back(cloud.scales[i]);
-        part.opacities.push_back(cloud.opacities[i]);
-        part.coefficients.insert(part.coefficients.end(), cloud.coefficients.begin() + long(i * each),
-                                 cloud.coefficients.begin() + long((i + 1) * each));
+    double drawnShare() const {
+        const std::vector<uint32_t>& tiles = _pass.drawnTiles();
+        return double(std::count_if(tiles.begin(), tiles.end(), [](uint32_t t) { return t != 0; })) /
+               double(std::max<size_t>(tiles.size(), 1));
     }
-    return part;
-}
 
-/// A second, smaller instance in front moves: of a tenth of the splats, covering about a tenth of the
-/// picture.
-void benchEdit(Device& device, const SplatCloud& cloud, const SplatInstance& instance,
-               const std::string& name, glm::uvec2 size, const SplatBenchOptions& options,
-               SplatReport& report) {
-    SplatPass pass(device, options.pass);
-    SplatInstance small = instance;
-    small.store = std::make_shared<SplatStore>(device, tenthOf(cloud));
-    const glm::mat4 smaller =
-        glm::scale(glm::translate(glm::mat4(1.f), glm::vec3(0.4f, 0.6f, 0.8f)), glm::vec3(0.5f));
-    small.objectToWorld = glm::mat4x3(smaller * glm::mat4(instance.objectToWorld));
-    SplatEditRow row{name, size, 0, {}, {}};
-    std::vector<double> whole, edit;
-    for (int i = -1; i < options.repetitions; ++i) {
-        pass.setView(viewOf(size, i));
-        pass.setInstances({instance, small});
-        const Timing first = timed([&] { pass.render(); });
-        small.objectToWorld[3].x += 0.01f;
-        pass.setInstances({instance, small});
-        const Timing second = timed([&] { pass.render(); });
-        if (i < 0) continue;
-        whole.push_back(1e3 * first.processor);
-        edit.push_back(1e3 * second.processor);
-        const auto& drawn = pass.drawnTiles();
-        row.drawnShare =
-            double(std::accumulate(drawn.begin(), drawn.end(), size_t(0))) / double(drawn.size());
+    SplatMoveRow move(glm::uvec2 size) {
+        const auto ball = std::make_shared<SplatStore>(_device, splatBall(_scene.cloud.size() / 10));
+        const auto place = [&](float x, bool visible = true) {
+            glm::mat4x3 moved(1.f);
+            moved[3].x = x;
+            _pass.setInstances({{_store, _scene.objectToWorld, 1, 0}, {ball, moved, 2, 0, visible}});
+        };
+        SplatMoveRow row;
+        row.size = size;
+        _pass.setMode(SplatMode::Automatic);
+        row.mode = splatModeName(_pass.mode());
+        place(0.f);
+        frame(SplatMode::Automatic, size);
+        place(0.f, false);
+        _pass.render();
+        row.covered = drawnShare();
+        place(0.f);
+        _pass.render();
+        Times whole, moved;
+        for (int turn = 0; turn < _options.repetitions; ++turn) {
+            whole.add(frame(SplatMode::Automatic, size));
+            place(turn % 2 ? 0.f : 0.01f);
+            moved.add(timed([&] { _pass.render(); }));
+            row.drawn = drawnShare();
+        }
+        row.wholeMs = spread(whole.clock);
+        row.movedMs = spread(moved.clock);
+        row.wholeProcessorMs = spread(whole.processor);
+        row.movedProcessorMs = spread(moved.processor);
+        return row;
     }
-    row.whole = spread(whole);
-    row.edit = spread(edit);
-    report.edits.push_back(row);
-}
 
-std::string text(double value, int digits) {
-    std::ostringstream out;
-    out << std::fixed << std::setprecision(digits) << value;
-    return out.str();
-}
+    Device& _device;
+    const SplatScene& _scene;
+    const SplatBenchOptions& _options;
+    SplatPass _pass;
+    std::shared_ptr<const SplatStore> _store;
+    int _turn = 0;
+};
 
 } // namespace
 
-SplatCloud madeUpCloud(size_t count) {
-    std::mt19937 random(1);
-    const auto uniform = [&](float lo, float hi) {
-        return lo + (hi - lo) * float(random() >> 8) / float(1 << 24);
-    };
-    const auto box = [&](glm::vec3 lo, glm::vec3 hi) {
-        return glm::vec3(uniform(lo.x, hi.x), uniform(lo.y, hi.y), uniform(lo.z, hi.z));
-    };
-    SplatCloud cloud;
-    cloud.name = "made up, " + std::to_string(count);
-    cloud.shDegree = 1;
-    // Scales shrink as on surfaces, which are what captures are made of.
-    const float scale = 1.2f / std::sqrt(float(count));
-    for (size_t i = 0; i < count; ++i) {
-        glm::vec3 p = box({-2, -1, -2}, {2, 2, 2});
-        const int wall = int(random() % 3); // onto the floor, the back or the left
-        p[wall] = wall == 0 ? -2.f : wall == 1 ? -1.f : -2.f;
-        if (i % 4 == 0) p = box({-0.8f, -0.5f, -0.8f}, {0.8f, 1.f, 0.8f});
-        cloud.positions.push_back(p);
-        cloud.orientations.push_back(
-            glm::normalize(glm::quat(uniform(0.1f, 1), uniform(-1, 1), uniform(-1, 1), uniform(-1, 1))));
-        cloud.scales.push_back(scale * glm::exp(box(glm::vec3(-1.5f), glm::vec3(1.5f))));
-        cloud.opacities.push_back(uniform(0.02f, 1.f));
-        cloud.coefficients.push_back(box(glm::vec3(-1.5f), glm::vec3(1.5f)));
-        for (int k = 0; k < 3; ++k)
-            cloud.coefficients.push_back(box(glm::vec3(-0.3f), glm::vec3(0.3f)));
-    }
-    return cloud;
-}
-
-void benchSplats(Device& device, const SplatCloud& cloud, bool capture, const SplatBenchOptions& options,
-                 SplatReport& report) {
-    SplatInstance instance;
-    instance.store = std::make_shared<SplatStore>(device, cloud);
-    instance.objectToWorld = placement(capture);
-    for (const glm::uvec2 size : options.sizes) {
-        benchModes(device, instance, cloud.name, size, options, report);
-        benchEdit(device, cloud, instance, cloud.name, size, options, report);
-    }
-}
-
-void printSplatTables(std::ostream& out, const SplatReport& report) {
-    const auto size = [](glm::uvec2 s) { return std::to_string(s.x) + " x " + std::to_string(s.y); };
-    out << "\n| cloud | size | mode | visible | pairs | longest list | sorted MB | blends tried M | done M | "
-           "frame ms, "
-           "processor | frame ms, clock | stages, processor ms "
-           "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
-    for (const SplatRow& r : report.frames) {
-        const SplatStatistics& s = r.statistics;
-        out << "| " << r.cloud << " | " << size(r.size) << " | " << splatModeName(r.mode) << " | "
-            << s.visible << " | " << s.pairs << " | " << s.largestList << " | "
-            << text(double(s.sortBytes) / 1e6, 1) << " | " << text(double(s.blendsTried) / 1e6, 1) << " | "
-            << text(double(s.blendsDone) / 1e6, 1) << " | " << text(r.processor.median, 1) << " ("
-            << text(r.processor.minimum, 1) << "-" << text(r.processor.maximum, 1) << ") | "
-            << text(r.clock.median, 1) << " (" << text(r.clock.minimum, 1) << "-" << text(r.clock.maximum, 1)
-            << ") |";
-        for (const auto& stage : s.stages)
-            out << " " << stage.name << " " << text(stage.processorMs, 1);
-        out << " |\n";
-    }
-    out << "\n| cloud | size | tiles drawn again | whole frame, processor ms | after the move | ratio |\n"
-           "|---|---|---|---|---|---|\n";
-    for (const SplatEditRow& r : report.edits)
-        out << "| " << r.cloud << " | " << size(r.size) << " | " << text(100 * r.drawnShare, 1) << " % | "
-            << text(r.whole.median, 1) << " | " << text(r.edit.median, 1) << " | "
-            << text(r.edit.median / r.whole.median, 2) << " |\n";
+SplatReport benchSplats(Device& device, const SplatScene& scene, const SplatBenchOptions& options) {
+    return Bench(device, scene, options).run();
 }
 
 } // namespace hipr::bench

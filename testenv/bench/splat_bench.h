@@ -1,52 +1,57 @@
 /// @file splat_bench.h
-/// Frames of the splat pass: all modes in turns, on captures and on clouds made up.
+/// Times the splat pass: every mode in turns, and a prim that moves.
 #pragma once
 
-#include <string>
+#include <optional>
 
-#include "renderer/higs/splat_pass.h"
+#include "renderer/vulkan/device.h"
+#include "testenv/bench/splat_scenes.h"
 #include "testenv/bench/statistics.h"
 
 namespace hipr::bench {
 
 struct SplatBenchOptions {
-    std::vector<glm::uvec2> sizes;
     std::vector<SplatMode> modes;
+    std::vector<glm::uvec2> sizes;
     SplatPassOptions pass;
     int repetitions = 5;
+    double budget = 0;      ///< seconds for a scene and size: once spent, no further turn begins; 0: no limit
+    bool countOnly = false; ///< one frame each, and no times
+    bool move = false;      ///< also measure a prim that moves
+    std::string pictures;   ///< folder for a .ppm of every frame; empty: none
 };
 
-/// Of one cloud, size and mode; times in milliseconds.
+/// A mode at a size.
 struct SplatRow {
-    std::string cloud;
+    std::string mode;
     glm::uvec2 size{0};
-    SplatMode mode = SplatMode::Automatic;
-    SplatStatistics statistics; ///< of one more frame, stage by stage
-    Spread clock, processor;    ///< of whole frames
+    Spread frameMs, processorMs; ///< one frame of a moving camera, all stages
+    SplatStatistics statistics;  ///< of one more frame, while profiling
 };
 
-/// What is drawn again after one instance of two has moved, in the default mode.
-struct SplatEditRow {
-    std::string cloud;
+/// A frame after a prim moved that covers part of the picture, against a whole frame of the same scene.
+struct SplatMoveRow {
+    std::string mode;
     glm::uvec2 size{0};
-    double drawnShare = 0; ///< of the picture's macro-tiles
-    Spread whole, edit;    ///< processor time of a whole frame, and of one after the move, in turns
+    double covered = 0; ///< share of the picture's macro-tiles in which the prim is
+    double drawn = 0;   ///< share that is drawn again
+    Spread wholeMs, movedMs, wholeProcessorMs, movedProcessorMs;
 };
 
 struct SplatReport {
-    std::vector<SplatRow> frames;
-    std::vector<SplatEditRow> edits;
+    std::string scene;
+    size_t splats = 0;
+    uint32_t degree = 0;
+    double loadSeconds = 0, storeSeconds = 0;
+    uint64_t storeBytes = 0, deviceBytes = 0; ///< the latter with all buffers of all modes at all sizes
+    double peakMiB = 0;                       ///< resident set of the process so far
+    std::vector<SplatRow> rows;
+    std::optional<SplatMoveRow> moved;
 };
 
-/// A cloud of `count` splats in a room of 4 x 3 x 4 units, with colours of degree 1, that covers most of the
-/// picture. The same on every machine.
-SplatCloud madeUpCloud(size_t count);
+SplatReport benchSplats(Device& device, const SplatScene& scene, const SplatBenchOptions& options);
 
-/// Adds the rows of a cloud. Captures are turned by half a turn around x: theirs is a world of y down.
-void benchSplats(Device& device, const SplatCloud& cloud, bool capture, const SplatBenchOptions& options,
-                 SplatReport& report);
-
-/// As tables of Markdown.
-void printSplatTables(std::ostream& out, const SplatReport& report);
+void printSplats(std::ostream& out, const SplatReport& report);
+nlohmann::json toJson(const SplatReport& report);
 
 } // namespace hipr::bench

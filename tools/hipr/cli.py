@@ -66,7 +66,7 @@ def parser() -> argparse.ArgumentParser:
               epilog="trace: rays and samples per second against bare Embree, builds, start-up, memory.\n"
                      "cycles: samples per second against Blender's Cycles, which comes from PyPI (about 400 MB).\n"
                      "edits: how soon edits show, in HiPR's modes; analysed with packages from PyPI (about 200 MB).\n"
-                     "splats: frames of Gaussian splats in all modes, of captures (.ply, .spz) or made up.\n"
+                     "splats: frames of Gaussian splats in all modes, and against splat-transform from npm (about 350 MB).\n"
                      "`hipr bench trace --help` lists their options.")
     sub.add_argument("arguments", nargs=argparse.REMAINDER, help="trace, cycles, edits or splats, and their options")
     sub = add("test", "build everything and run the tests")

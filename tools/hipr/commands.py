@@ -77,17 +77,18 @@ def test(options) -> int:
 
 def bench(options) -> int:
     what, *arguments = options.arguments or [""]
-    scripts = {"cycles": "compare_cycles.py", "edits": "edits/bench_edits.py"}
-    programs = {"trace": ["hipr-bench", "trace"], "splats": ["hipr-bench-splats"]}
-    if what not in programs and what not in scripts:
+    scripts = {"cycles": ("compare_cycles.py", "--record", "hiprrecord"),
+               "edits": ("edits/bench_edits.py", "--record", "hiprrecord"),
+               "splats": ("splats/bench_splats.py", "--bench", "hipr-bench-splats")}
+    if what != "trace" and what not in scripts:
         raise HiprError(f"there is no benchmark '{what}'." if what else "which benchmark?",
                         "Say trace, cycles, edits or splats.")
     sdk, project = _built(options, openusd.CORE, tests=what != "edits")
-    if what in programs:
-        program, *first = programs[what]
-        return _replace(project.program(program), [*first, *arguments], sdk)
-    script = paths.CHECKOUT / "testenv/bench" / scripts[what]
-    return _replace(script, ["--record", str(project.program("hiprrecord")), *arguments], sdk, python=True)
+    if what == "trace":
+        return _replace(project.program("hipr-bench"), ["trace", *arguments], sdk)
+    script, option, program = scripts[what]
+    return _replace(paths.CHECKOUT / "testenv/bench" / script, [option, str(project.program(program)), *arguments], sdk,
+                    python=True)
 
 
 def devices(options) -> int:
