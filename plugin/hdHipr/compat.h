@@ -309,11 +309,9 @@ inline AssetBytes openAsset(std::string const& resolvedPath) {
     if (resolvedPath.empty()) {
         return {};
     }
-#if PXR_VERSION >= 2203
-    const std::shared_ptr<ArAsset> asset = ArGetResolver().OpenAsset(ArResolvedPath(resolvedPath));
-#else
-    const std::shared_ptr<ArAsset> asset = ArGetResolver().OpenAsset(resolvedPath);
-#endif
+    ArResolver& resolver = ArGetResolver();
+    using Resolved = decltype(resolver.Resolve(resolvedPath)); // text, or a type of its own from 21.11 on
+    const std::shared_ptr<ArAsset> asset = resolver.OpenAsset(Resolved(resolvedPath));
     if (asset && asset->GetSize() == 0) { // has no buffer
         static const unsigned char nothing = 0;
         return {{asset, &nothing}, 0};

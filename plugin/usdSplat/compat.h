@@ -16,7 +16,7 @@
 
 PXR_NAMESPACE_OPEN_SCOPE
 
-/// UsdImagingGprimAdapter with primvars that are no `primvars:` of USD: older versions want their values put
+/// UsdImagingGprimAdapter with primvars that are no `primvars:` of USD: 20.08 wants their values put
 /// into a cache, later ones ask for one at a time.
 class UsdSplatAdapterBase : public UsdImagingGprimAdapter {
 public:
@@ -40,7 +40,7 @@ public:
                 continue;
             }
             _MergePrimvar(&descriptors, primvar.name, primvar.interpolation, primvar.role);
-#if PXR_VERSION < 2102
+#if PXR_VERSION < 2011
             _GetValueCache()->GetPrimvar(cachePath, primvar.name) = readPrimvar(prim, primvar.name, time);
 #endif
         }
