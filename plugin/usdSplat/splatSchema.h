@@ -2,8 +2,7 @@
 /// The names of UsdVol's ParticleField3DGaussianSplat (OpenUSD 26.03), which older OpenUSD gets from us.
 #pragma once
 
-#include "pxr/base/tf/token.h"
-#include "pxr/pxr.h"
+#include "plugin/hdHipr/splatCloud.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
 
@@ -16,16 +15,16 @@ struct UsdSplatProperty {
 
 /// Those that become primvars.
 inline UsdSplatProperty const (&UsdSplatProperties())[8] {
+    static const hdhipr::SplatTokens t;
     static const UsdSplatProperty properties[] = {
-        {TfToken("positions"), TfToken("positionsh"), false},
-        {TfToken("orientations"), TfToken("orientationsh"), false},
-        {TfToken("scales"), TfToken("scalesh"), false},
-        {TfToken("opacities"), TfToken("opacitiesh"), false},
-        {TfToken("radiance:sphericalHarmonicsCoefficients"),
-         TfToken("radiance:sphericalHarmonicsCoefficientsh"), false},
-        {TfToken("radiance:sphericalHarmonicsDegree"), TfToken(), true},
-        {TfToken("sortingModeHint"), TfToken(), true},
-        {TfToken("projectionModeHint"), TfToken(), true},
+        {t.positions, TfToken("positionsh"), false},
+        {t.orientations, TfToken("orientationsh"), false},
+        {t.scales, TfToken("scalesh"), false},
+        {t.opacities, TfToken("opacitiesh"), false},
+        {t.coefficients, TfToken(t.coefficients.GetString() + "h"), false},
+        {t.degree, TfToken(), true},
+        {t.sorting, TfToken(), true},
+        {t.projection, TfToken(), true},
     };
     return properties;
 }
