@@ -283,7 +283,11 @@ bool SplatPass::Impl::render(const std::atomic<bool>* cancel) {
 }
 
 SplatPass::SplatPass(Device& device, const SplatPassOptions& options)
-    : _impl(std::make_unique<Impl>(device, options)) {}
+    : _impl(std::make_unique<Impl>(device, options)) {
+    _impl->wanted = options.mode;
+    for (const bool limited : {false, true})
+        _impl->stages.compile(_impl->mode(), limited, false);
+}
 SplatPass::~SplatPass() = default;
 
 void SplatPass::setView(const SplatView& view) {

@@ -39,6 +39,7 @@ enum class SplatKernels : uint32_t {
 
 struct SplatPassOptions {
     SplatKernels kernels = SplatKernels::Automatic;
+    SplatMode mode = SplatMode::Automatic; ///< to begin with; its kernels are compiled at once
     bool halfRecords =
         false; ///< conics and colours of projected splats in half precision: 32 instead of 48 bytes
 };
@@ -83,7 +84,7 @@ struct SplatStatistics {
 /// Not thread-safe. Buffers grow with what is drawn and stay. Throws OutOfMemory and DeviceLost.
 class SplatPass {
 public:
-    /// Compiles its kernels.
+    /// Compiles the kernels of a mode; those of others are compiled when they are first drawn with.
     explicit SplatPass(Device& device, const SplatPassOptions& options = {});
     ~SplatPass();
     SplatPass(const SplatPass&) = delete;

@@ -48,12 +48,15 @@ uint32_t tileBits(const gpu::SplatFrame& frame) {
 SplatStages::SplatStages(Device& device, bool lanes, bool half)
     : _device(device), _kernels(device, lanes, half), _buffers(device, lanes, half) {}
 
+void SplatStages::compile(SplatMode mode, bool limited, bool profiling) {
+    _kernels.compile(kernelsOf(mode, _kernels.lanes(), limited, profiling));
+}
+
 void SplatStages::setUp(SplatMode mode, gpu::SplatFrame frame,
                         const std::vector<gpu::SplatPlacement>& placements,
                         const std::vector<gpu::SplatBlock>& blocks, const gpu::CameraRecord& camera) {
     _mode = mode;
-    _kernels.compile(
-        kernelsOf(mode, _kernels.lanes(), frame.depthLimit != 0, frame.flags & gpu::FRAME_PROFILING));
+    compile(mode, frame.depthLimit != 0, frame.flags & gpu::FRAME_PROFILING);
     _buffers.blocks.reserve(_device, blocks.size() * sizeof(gpu::SplatBlock));
     _buffers.prepare(mode, frame);
     _device.upload(_buffers.blocks.buffer(), blocks.data(), blocks.size() * sizeof(blocks[0]));

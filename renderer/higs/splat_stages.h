@@ -15,8 +15,11 @@ public:
     /// `lanes`: kernels without barriers and shared memory; `half`: projected splats in half precision.
     SplatStages(Device& device, bool lanes, bool half);
 
-    /// What the frame is about. Compiles what the mode needs and uploads everything; `frame` comes with its
-    /// sizes, flags and depthLimit set, the rest is filled in here.
+    /// Compiles what a mode needs and what is not there yet (blocking); `limited`: with a depth limit,
+    /// `profiling`: with tally().
+    void compile(SplatMode mode, bool limited, bool profiling);
+    /// What the frame is about. Compiles what is missing for it and uploads everything; `frame` comes with
+    /// its sizes, flags and depthLimit set, the rest is filled in here.
     void setUp(SplatMode mode, gpu::SplatFrame frame, const std::vector<gpu::SplatPlacement>& placements,
                const std::vector<gpu::SplatBlock>& blocks, const gpu::CameraRecord& camera);
 

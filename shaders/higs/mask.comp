@@ -8,17 +8,19 @@ layout(local_size_x = 32) in;
 
 const uint COLUMNS = SPLAT_MACRO_WIDTH / SPLAT_TILE, ROWS = SPLAT_MACRO_HEIGHT / SPLAT_TILE;
 
+// A tile is hit where the ellipse meets the rectangle between the centres of its outermost pixels.
 uint hits(SplatFrame frame, uint splat, vec2 corner) {
     const ProjectedSplat s = loadSplat(frame, splat);
     const SplatEllipse e = splatEllipse(s.mean - corner, s.shape, splatReach(s.bias));
     const float size = float(SPLAT_TILE);
-    const uvec2 rows = tilesOfSpan(e.mean.y - e.half_.y, e.mean.y + e.half_.y, size, 0u, ROWS);
     uint bits = 0u;
     [[unroll]] for (uint row = 0u; row < ROWS; ++row) {
-        const vec2 span = ellipseSpan(e, float(row) * size, float(row + 1u) * size);
-        const uvec2 columns = tilesOfSpan(span.x, span.y, size, 0u, COLUMNS);
-        const uint run = (1u << columns.y) - (1u << columns.x);
-        if (row >= rows.x && row < rows.y) bits |= run << (row * COLUMNS);
+        const float lo = float(row) * size + 0.5, hi = lo + size - 1.0;
+        const vec2 span = ellipseSpan(e, lo, hi);
+        const float from = clamp(ceil((span.x + 0.5) / size - 1.0), 0.0, float(COLUMNS));
+        const float to = clamp(floor((span.y - 0.5) / size) + 1.0, 0.0, float(COLUMNS));
+        const bool meets = lo <= e.mean.y + e.half_.y && hi >= e.mean.y - e.half_.y && from < to;
+        if (meets) bits |= ((1u << uint(to)) - (1u << uint(from))) << (row * COLUMNS);
     }
     return bits;
 }

@@ -54,9 +54,7 @@ Error compare(const std::vector<gpu::SplatPixel>& pixels, const std::vector<Orac
 
 class SplatPictures : public ::testing::TestWithParam<Form> {
 protected:
-    SplatPictures() : pass(testDevice(), {GetParam().kernels, GetParam().half}) {
-        pass.setMode(GetParam().mode);
-    }
+    SplatPictures() : pass(clearedPass({GetParam().kernels, GetParam().mode, GetParam().half})) {}
 
     std::vector<gpu::SplatPixel> draw(const SplatScene& scene) {
         pass.setView(viewOf(scene));
@@ -90,7 +88,7 @@ protected:
                                                                                  : glm::uvec2(64, 32);
     }
 
-    SplatPass pass;
+    SplatPass& pass;
 };
 
 std::vector<Form> allForms() {
@@ -252,8 +250,7 @@ TEST_P(SplatPictures, SameBitsAgain) {
     recipe.largest = 0.05f;
     SplatScene scene = sceneOf(randomCloud(recipe));
     const std::vector<gpu::SplatPixel> first = draw(scene);
-    SplatPass other(testDevice(), {GetParam().kernels, GetParam().half});
-    other.setMode(GetParam().mode);
+    SplatPass other(testDevice(), {GetParam().kernels, GetParam().mode, GetParam().half});
     other.setView(viewOf(scene));
     other.setInstances(instancesOf(scene));
     for (int i = 0; i < 3; ++i) {

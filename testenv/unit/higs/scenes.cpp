@@ -1,6 +1,8 @@
 #include "testenv/unit/higs/scenes.h"
 
 #include <cmath>
+#include <map>
+#include <tuple>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -71,6 +73,22 @@ SplatView viewOf(const SplatScene& scene) {
     view.height = scene.height;
     view.antialiased = scene.antialiased;
     return view;
+}
+
+SplatPass& clearedPass(const SplatPassOptions& options) {
+    Device& device = testDevice(); // goes after the passes
+    static std::map<std::tuple<SplatKernels, SplatMode, bool>, std::unique_ptr<SplatPass>> passes;
+    auto& pass = passes[{options.kernels, options.mode, options.halfRecords}];
+    if (!pass) pass = std::make_unique<SplatPass>(device, options);
+    SplatScene nothing;
+    nothing.width = nothing.height = 8;
+    nothing.camera = perspectiveCamera(1);
+    pass->setInstances({});
+    pass->setView(viewOf(nothing));
+    pass->setDepthLimit(0);
+    pass->setProfiling(false);
+    EXPECT_TRUE(pass->render());
+    return *pass;
 }
 
 std::vector<gpu::SplatPixel> pixelsOf(const SplatPass& pass, const SplatScene& scene) {

@@ -36,6 +36,9 @@ SplatScene sceneOf(SplatCloud cloud);
 /// For the splat pass; cloud i has primId 10 + i and instanceId 100 + i.
 std::vector<SplatInstance> instancesOf(const SplatScene& scene);
 SplatView viewOf(const SplatScene& scene);
+/// A pass that has just drawn nothing in a picture of another size, so that it has to draw everything. One
+/// for each set of options, because kernels take long to compile.
+SplatPass& clearedPass(const SplatPassOptions& options);
 std::vector<gpu::SplatPixel> pixelsOf(const SplatPass& pass, const SplatScene& scene);
 
 } // namespace hipr::test
