@@ -94,7 +94,7 @@ std::pair<std::string, std::string> parseSetting(const std::string& text) {
 }
 
 void addSceneOptions(CLI::App& app, Options& options, RawOptions& raw) {
-    app.add_option("scene", options.scene, "The stage: .usd, .usda, .usdc or .usdz")->type_name("SCENE");
+    app.add_option("scene", options.scene, "The stage: .usd, .usda, .usdc or .usdz, or a capture: .ply or .spz")->type_name("SCENE");
     app.add_option(
            "--camera,-c", options.camera,
            "Camera by name or prim path; 'auto' frames the whole stage. Default: the camera of the stage's "

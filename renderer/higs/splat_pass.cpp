@@ -41,7 +41,7 @@ bool samePixels(const SplatView& a, const SplatView& b) {
 
 bool same(const SplatView& a, const SplatView& b) {
     return std::memcmp(&a.camera, &b.camera, sizeof(a.camera)) == 0 && samePixels(a, b) &&
-           a.antialiased == b.antialiased;
+           a.antialiased == b.antialiased && a.srgb == b.srgb;
 }
 
 /// Lists are sorted by one measure: the most demanding that any instance asks for.
@@ -67,8 +67,8 @@ gpu::SplatFrame frameRecord(const SplatView& view, SplatMode mode, bool profilin
     f.nearDepth = view.camera.nearDepth;
     f.farDepth = view.camera.farDepth;
     const bool parallel = view.camera.directionX == glm::vec3(0) && view.camera.directionY == glm::vec3(0);
-    f.flags = (view.antialiased ? gpu::FRAME_ANTIALIASED : 0u) | (profiling ? gpu::FRAME_PROFILING : 0u) |
-              (parallel ? gpu::FRAME_PARALLEL : 0u) |
+    f.flags = (view.antialiased ? gpu::FRAME_ANTIALIASED : 0u) | (view.srgb ? gpu::FRAME_SRGB : 0u) |
+              (profiling ? gpu::FRAME_PROFILING : 0u) | (parallel ? gpu::FRAME_PARALLEL : 0u) |
               (mode == SplatMode::Flat16Aabb ? gpu::FRAME_SQUARES : 0u);
     return f;
 }

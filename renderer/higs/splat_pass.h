@@ -51,6 +51,7 @@ struct SplatView {
     uint32_t cropX = 0, cropY = 0;          ///< what lies outside is left as it is
     uint32_t cropWidth = 0, cropHeight = 0; ///< 0: to the end
     bool antialiased = false;               ///< Mip-Splatting's filter instead of 3DGS' dilation
+    bool srgb = false; ///< colours are sRGB-encoded, and are made linear before they are blended
 };
 
 /// A cloud placed in the scene.

@@ -23,6 +23,7 @@ bool samePicture(const Settings& a, const Settings& b) {
     c.weightCaustic = b.weightCaustic;
     c.splatMode = b.splatMode; // splats are no part of the samples
     c.splatAntialiasing = b.splatAntialiasing;
+    c.splatColors = b.splatColors;
     return c == b;
 }
 

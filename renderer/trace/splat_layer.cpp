@@ -71,8 +71,10 @@ void SplatLayer::setView(const gpu::CameraRecord& camera, uint32_t width, uint32
 
 void SplatLayer::setSettings(const Settings& settings) {
     const SplatMode mode = splatMode(settings.splatMode);
-    if (mode == _mode && settings.splatAntialiasing == _view.antialiased) return;
+    const bool srgb = settings.splatColors == "sRGB";
+    if (mode == _mode && settings.splatAntialiasing == _view.antialiased && srgb == _view.srgb) return;
     _mode = mode;
+    _view.srgb = srgb;
     _view.antialiased = settings.splatAntialiasing;
     _pending = true;
     if (!_ready) return;

@@ -1,6 +1,7 @@
 // Splats to ellipses on the film. A workgroup is a block: splats of one placement.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "color/srgb.glsl"
 #include "higs/harmonics.glsl"
 
 layout(local_size_x = 256) in;
@@ -111,6 +112,7 @@ void main() {
     const bool parallel = (frame.flags & FRAME_PARALLEL) != 0u;
     const vec3 towards = p.xyz - placement.eye, relative = toWorld(placement, towards);
     s.color = splatColor(placement.arrays, local, normalize(parallel ? placement.direction : towards));
+    if ((frame.flags & FRAME_SRGB) != 0u) s.color = decodeSrgb(s.color);
     s.key = max(parallel || frame.sorting == SORT_Z_DEPTH ? s.depth : length(relative), 0.0);
     storeSplat(frame, i, s);
     if (frame.rays != 0ul)

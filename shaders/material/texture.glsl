@@ -2,12 +2,8 @@
 #ifndef HIPR_MATERIAL_TEXTURE_GLSL
 #define HIPR_MATERIAL_TEXTURE_GLSL
 #extension GL_EXT_control_flow_attributes : require
+#include "color/srgb.glsl"
 #include "shared/references.glsl"
-
-// IEC 61966-2-1.
-vec3 decodeSrgb(vec3 c) {
-    return mix(pow((c + 0.055) * (1.0 / 1.055), vec3(2.4)), c * (1.0 / 12.92), lessThanEqual(c, vec3(0.04045)));
-}
 
 vec4 decodeTexel(TextureRecord texture, uint index) {
     if (texture.format <= TEXEL_RGBA8) {

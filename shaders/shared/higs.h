@@ -192,6 +192,7 @@ HIPR_CONST uint FRAME_ANTIALIASED = 1u;
 HIPR_CONST uint FRAME_PROFILING = 2u;
 HIPR_CONST uint FRAME_PARALLEL = 4u;       // an orthographic camera
 HIPR_CONST uint FRAME_SQUARES = 8u;        // tiles are those that meet a square of 3 standard deviations
+HIPR_CONST uint FRAME_SRGB = 16u;          // coefficients give sRGB-encoded colours
 
 // Push constants of every kernel of the pass.
 struct SplatPush {

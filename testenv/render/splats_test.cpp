@@ -118,6 +118,21 @@ TEST(Splats, BlendByTheirTransmittance) {
     EXPECT_EQ(seen.w, 1.f);
 }
 
+TEST(Splats, MayHoldDisplayColours) {
+    const SplatCloud grey = ball(glm::vec3(0.5f), 2.f);
+    Settings settings = SplatStage::withSamples(1);
+    const auto seen = [&](const char* colors) {
+        settings.splatColors = colors;
+        SplatStage stage;
+        stage.settings(settings);
+        stage.addSplats(grey, {translation(0, 0, 2)});
+        stage.render();
+        return stage.color().at(Size / 2, Size / 2).x;
+    };
+    // The decoded value of 0.5 by IEC 61966-2-1; the splat covers all but 1 %.
+    EXPECT_NEAR(seen("linear") - seen("sRGB"), 0.99f * (0.5f - 0.21404114f), 2e-3f);
+}
+
 TEST(Splats, HaveDepthAndIdsWhereTheyCover) {
     SplatStage stage;
     stage.addSplats(ball(Green, 0.3f), {translation(0, 0, 2), translation(0, 30, 2)});
