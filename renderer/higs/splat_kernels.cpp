@@ -1,6 +1,8 @@
 #include "renderer/higs/splat_kernels.h"
 
 #include "hipr_higs_kernels.h"
+#include "renderer/vulkan/device.h"
+#include "renderer/vulkan/structs.h"
 #include "shaders/shared/higs.h"
 
 namespace hipr {
@@ -78,6 +80,15 @@ const Sources& sourcesOf(SplatKernel kernel) {
 }
 
 } // namespace
+
+bool canRunLanes(const Device& device) {
+    auto subgroup =
+        vkStruct<VkPhysicalDeviceSubgroupProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES);
+    auto properties = vkStruct<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2);
+    properties.pNext = &subgroup;
+    vkGetPhysicalDeviceProperties2(device.physical(), &properties);
+    return subgroup.subgroupSize >= 8 && (subgroup.supportedOperations & VK_SUBGROUP_FEATURE_SHUFFLE_BIT);
+}
 
 void SplatKernelSet::compile(const std::vector<SplatKernel>& kernels) {
     for (const SplatKernel kernel : kernels) {

@@ -41,6 +41,9 @@ enum class SplatKernel {
     Number
 };
 
+/// Whether a device can run the kernels in lanes: they want subgroups of eight or more that can shuffle.
+bool canRunLanes(const Device& device);
+
 /// Kernels of one form.
 class SplatKernelSet {
 public:

@@ -20,7 +20,9 @@ enum Work : int {
 };
 
 bool useLanes(const Device& device, SplatKernels kernels) {
-    return kernels == SplatKernels::Automatic ? device.info().cpu : kernels == SplatKernels::Lanes;
+    const bool wanted =
+        kernels == SplatKernels::Automatic ? device.info().cpu : kernels == SplatKernels::Lanes;
+    return wanted && canRunLanes(device);
 }
 
 bool sameStores(const std::vector<SplatInstance>& a, const std::vector<SplatInstance>& b) {
@@ -274,7 +276,7 @@ bool SplatPass::Impl::render(const std::atomic<bool>* cancel) {
         return false;
     }
     report(state);
-    if (profiling) tally();
+    if (profiling && canRunLanes(device)) tally();
     listsComplete = !doing(Placements);
     work = Nothing;
     newPicture = false;

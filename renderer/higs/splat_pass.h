@@ -33,7 +33,7 @@ const char* splatModeName(SplatMode mode); ///< "higs8-carry", ...
 /// Which form the kernels have. Both draw the same picture up to rounding.
 enum class SplatKernels : uint32_t {
     Automatic,  ///< Lanes on CPU devices, else Workgroups
-    Lanes,      ///< no barriers and no shared memory
+    Lanes,      ///< no barriers; Workgroups where subgroups are smaller than eight
     Workgroups, ///< cooperating workgroups
 };
 
@@ -62,7 +62,8 @@ struct SplatInstance {
     bool visible = true;
 };
 
-/// What the last render() did; milliseconds and blends only after setProfiling(true).
+/// What the last render() did; milliseconds and blends only after setProfiling(true), blends only where
+/// subgroups have eight lanes or more.
 struct SplatStatistics {
     uint64_t splats = 0;       ///< of all instances
     uint64_t visible = 0;      ///< projected into the picture

@@ -49,7 +49,8 @@ SplatStages::SplatStages(Device& device, bool lanes, bool half)
     : _device(device), _kernels(device, lanes, half), _buffers(device, lanes, half) {}
 
 void SplatStages::compile(SplatMode mode, bool limited, bool profiling) {
-    _kernels.compile(kernelsOf(mode, _kernels.lanes(), limited, profiling));
+    // Kernels that tally are in lanes.
+    _kernels.compile(kernelsOf(mode, _kernels.lanes(), limited, profiling && canRunLanes(_device)));
 }
 
 void SplatStages::setUp(SplatMode mode, gpu::SplatFrame frame,
