@@ -107,7 +107,7 @@ void TileSchedule::carried(const std::vector<float>& errors, float everywhere) {
     for (uint32_t tile = 0; tile < _states.size(); ++tile) {
         TileState& state = _states[tile];
         state.change = (state.keepsOld ? state.change : 0.f) + errors[tile] + everywhere;
-        state.keepsOld = false; // it is in the film
+        state.keepsOld = true; // the film has what was there before
         discover(tile, errors[tile]);
     }
     sort(false);

@@ -80,8 +80,9 @@ public:
     void keepPictures(bool keep);
     /// The view changed: samples from before cannot be compared with new ones.
     void changeView();
-    /// After invalidate(): the picture on display was carried to another camera. `errors`: what became wrong
-    /// in each tile by that, in radiance; they become the priorities. `everywhere`: in all tiles alike.
+    /// After invalidate(): the picture on display was carried to another camera and is the old picture of all
+    /// tiles. `errors`: what became wrong in each tile by that, in radiance; they become the priorities.
+    /// `everywhere`: in all tiles alike.
     void carried(const std::vector<float>& errors, float everywhere);
     /// After carried(): how far a tile's first sample is from the mean on display. As measured(), but the
     /// change is as it was estimated.

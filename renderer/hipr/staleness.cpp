@@ -10,25 +10,29 @@ struct TileSums {
     double uncovered = 0, stale = 0, radiance = 0;
 };
 
-TileSums sums(const gpu::CarriedRow* rows, uint32_t count) {
-    TileSums s;
-    for (uint32_t i = 0; i < count; ++i) {
-        s.uncovered += rows[i].uncovered;
-        s.stale += double(rows[i].stale);
-        s.radiance += double(rows[i].radiance);
-    }
-    return s;
+std::vector<TileSums> sums(const TileGrid& grid, const std::vector<gpu::CarriedStrip>& strips) {
+    std::vector<TileSums> tiles(grid.count());
+    const uint32_t perTile = grid.tileSize / gpu::CARRIED_STRIP;
+    const gpu::CarriedStrip* strip = strips.data();
+    for (uint32_t y = 0; y < grid.height; ++y)
+        for (uint32_t column = 0; column < grid.columns; ++column) {
+            TileSums& tile = tiles[column + y / grid.tileSize * grid.columns];
+            for (uint32_t i = 0; i < perTile; ++i, ++strip) {
+                tile.uncovered += strip->uncovered;
+                tile.stale += double(strip->stale);
+                tile.radiance += double(strip->radiance);
+            }
+        }
+    return tiles;
 }
 
 } // namespace
 
-Staleness staleness(const TileGrid& grid, const std::vector<gpu::CarriedRow>& rows) {
-    std::vector<TileSums> tiles;
+Staleness staleness(const TileGrid& grid, const std::vector<gpu::CarriedStrip>& strips) {
+    const std::vector<TileSums> tiles = sums(grid, strips);
     double radiance = 0;
-    for (uint32_t tile = 0; tile < grid.count(); ++tile) {
-        tiles.push_back(sums(rows.data() + size_t(tile) * grid.tileSize, grid.tileSize));
-        radiance += tiles.back().radiance;
-    }
+    for (const TileSums& tile : tiles)
+        radiance += tile.radiance;
     // Nobody knows what came into sight: of the picture's brightness, or of that of the surroundings, of
     // which the guess was made.
     const double mean = radiance / (double(grid.width) * grid.height);

@@ -16,7 +16,12 @@ struct Staleness {
     float meanRadiance = 0.f; ///< of the picture
 };
 
-/// `rows`: grid.tileSize entries a tile.
-Staleness staleness(const TileGrid& grid, const std::vector<gpu::CarriedRow>& rows);
+/// How many strips a picture has: rows padded to whole tiles, row by row. Tiles are multiples of them.
+inline uint64_t stripsOf(const TileGrid& grid) {
+    return uint64_t(grid.columns) * (grid.tileSize / gpu::CARRIED_STRIP) * grid.height;
+}
+
+/// `strips`: stripsOf(grid).
+Staleness staleness(const TileGrid& grid, const std::vector<gpu::CarriedStrip>& strips);
 
 } // namespace hipr

@@ -33,9 +33,9 @@ void RendererImpl::moveCamera(const std::optional<CameraDesc>& before, const std
     const auto from = cameraRecord(*before), to = cameraRecord(*_scene.camera());
     if (!from || !to) return;
     const auto start = Clock::now();
-    std::vector<gpu::CarriedRow> rows;
-    if (!_film.carry(*_machine->reprojection, _schedule, *from, *to, rows)) return;
-    Staleness stale = staleness(_schedule.grid(), rows);
+    std::vector<gpu::CarriedStrip> strips;
+    if (!_film.carry(*_machine->reprojection, _schedule, *from, *to, strips)) return;
+    Staleness stale = staleness(_schedule.grid(), strips);
     std::vector<float>& errors = stale.errors;
     const float worst = *std::max_element(errors.begin(), errors.end());
     for (const WorldBox& box : regions)

@@ -48,7 +48,7 @@ void FilmBuffers::clear() {
     _width = _height = 0;
     _sums = {}, _oldPicture = {}, _firstSamples = {}, _visibility = {}, _previousHits = {}, _depths = {},
     _targets = {};
-    _seen = {}, _seenAfter = {}, _sources = {};
+    _carried = {}, _seen = {}, _seenAfter = {}, _lists = {};
     _firstHits.clear();
     _hasPrevious = false;
 }
@@ -98,16 +98,17 @@ bool FilmBuffers::keepDepths(bool keep) {
 
 void FilmBuffers::createPictures() {
     if (!_keepsPictures || pixels() == 0) {
-        _oldPicture = {}, _seen = {}, _seenAfter = {}, _sources = {};
+        _oldPicture = {}, _carried = {}, _seen = {}, _seenAfter = {}, _lists = {};
         return;
     }
     const auto create = [&](size_t stride) {
         return _device.createBuffer(pixels() * stride, MemoryUse::Device, "Film");
     };
     _oldPicture = create(sizeof(gpu::OldPixel));
+    _carried = create(sizeof(gpu::OldPixel));
     _seen = filled(pixels() * sizeof(gpu::SeenPoint), gpu::SEEN_NOTHING);
     _seenAfter = create(sizeof(gpu::SeenPoint));
-    _sources = create(sizeof(gpu::CarriedSource));
+    _lists = create(gpu::CARRIED_LISTS * sizeof(uint32_t));
 }
 
 void FilmBuffers::keepPictures(bool keep) {
@@ -118,11 +119,13 @@ void FilmBuffers::keepPictures(bool keep) {
 
 bool FilmBuffers::carry(Reprojection& reprojection, const TileSchedule& schedule,
                         const gpu::CameraRecord& before, const gpu::CameraRecord& after,
-                        std::vector<gpu::CarriedRow>& rows) {
+                        std::vector<gpu::CarriedStrip>& strips) {
     if (!_seen) return false;
-    if (!reprojection.carry({_sums, _oldPicture, _seen, _seenAfter, _sources}, schedule, before, after, rows))
+    if (!reprojection.carry({_sums, _oldPicture, _carried, _seen, _seenAfter, _lists}, schedule, before,
+                            after, strips))
         return false;
     _seen.swap(_seenAfter);
+    _oldPicture.swap(_carried);
     return true;
 }
 

@@ -48,9 +48,10 @@ public:
     /// Whether what modes that look for edits need is kept: pictures from before them, and what pixels see.
     /// From then on, where it was not kept before.
     void keepPictures(bool keep);
-    /// Carries what is on display to another camera: see Reprojection::carry().
+    /// Carries what is on display to another camera: see Reprojection::carry(). All of it is in the old
+    /// picture then.
     bool carry(Reprojection& reprojection, const TileSchedule& schedule, const gpu::CameraRecord& before,
-               const gpu::CameraRecord& after, std::vector<gpu::CarriedRow>& rows);
+               const gpu::CameraRecord& after, std::vector<gpu::CarriedStrip>& strips);
 
     void describe(gpu::TraceRecord& record) const;
 
@@ -77,7 +78,7 @@ private:
     FilmDesc _desc; ///< as asked for
     uint32_t _width = 0, _height = 0;
     Buffer _sums, _oldPicture, _firstSamples, _visibility, _previousHits, _depths, _targets;
-    Buffer _seen, _seenAfter, _sources;
+    Buffer _carried, _seen, _seenAfter, _lists;
     bool _keepsHits = false, _keepsDepths = false, _hasPrevious = false, _keepsPictures = false;
     std::vector<FirstHitAov> _firstHits;
 };

@@ -3,14 +3,20 @@
 #include <algorithm>
 
 #include "hipr_trace_kernels.h"
+#include "renderer/hipr/staleness.h"
 
 namespace hipr {
 namespace {
 
 /// A picture of which less stays in sight is of another place: what little there is would mislead.
 constexpr double LeastShare = 0.25;
-/// Every device takes 65,535 workgroups.
-constexpr uint32_t PerDispatch = 65535 * gpu::TRACE_GROUP_SIZE;
+
+static_assert(sizeof(gpu::SeenPoint) == 16 && sizeof(gpu::OldPixel) == 32 && sizeof(gpu::FilmPixel) == 56,
+              "shaders/hipr/reprojection.glsl reads them by pairs of words");
+
+uint32_t groups(uint32_t items, uint32_t perGroup) {
+    return (items + perGroup - 1) / perGroup;
+}
 
 std::vector<KernelSource> sources() {
     constexpr uint32_t push = sizeof(gpu::ReprojectionPush);
@@ -18,6 +24,8 @@ std::vector<KernelSource> sources() {
     return {
         {reproject_depth_spv, reproject_depth_spv_size, push, "reproject depth"},
         {reproject_source_spv, reproject_source_spv_size, push, "reproject source"},
+        {reproject_torn_spv, reproject_torn_spv_size, push, "reproject torn"},
+        {reproject_mend_spv, reproject_mend_spv_size, push, "reproject mend"},
         {reproject_paint_spv, reproject_paint_spv_size, push, "reproject paint"},
     };
 }
@@ -26,18 +34,18 @@ std::vector<KernelSource> sources() {
 
 Reprojection::Reprojection(Device& device)
     : _device(device), _kernels(device, sources()),
-      _record(device.createBuffer(sizeof(gpu::ReprojectionRecord), MemoryUse::Device, "Reprojection")),
       _cameras(device.createBuffer(2 * sizeof(gpu::CameraRecord), MemoryUse::Device, "Reprojection")),
       _counts(device.createBuffer(sizeof(gpu::CarriedCounts), MemoryUse::Device, "Reprojection")) {}
 
 void Reprojection::describe(const CarriedPicture& picture, const TileSchedule& schedule,
                             const gpu::CameraRecord& before, const gpu::CameraRecord& after) {
     const TileGrid& grid = schedule.grid();
-    if (_tiles != grid.count() || _rowCount != uint64_t(grid.count()) * grid.tileSize) {
+    const uint64_t strips = stripsOf(grid);
+    if (_tiles != grid.count() || _stripCount != strips) {
         _tiles = grid.count();
-        _rowCount = _tiles * grid.tileSize;
+        _stripCount = strips;
         _tileKeepsOld = _device.createBuffer(_tiles * sizeof(uint32_t), MemoryUse::Device, "Reprojection");
-        _rows = _device.createBuffer(_rowCount * sizeof(gpu::CarriedRow), MemoryUse::Device, "Reprojection");
+        _strips = _device.createBuffer(strips * sizeof(gpu::CarriedStrip), MemoryUse::Device, "Reprojection");
     }
     std::vector<uint32_t> keepsOld;
     for (const TileState& tile : schedule.tiles())
@@ -46,52 +54,59 @@ void Reprojection::describe(const CarriedPicture& picture, const TileSchedule& s
     const gpu::CameraRecord cameras[] = {before, after};
     _device.upload(_cameras, cameras, sizeof(cameras));
 
-    gpu::ReprojectionRecord record{};
-    record.before = _cameras.address();
-    record.after = _cameras.address() + sizeof(gpu::CameraRecord);
-    record.film = picture.film.address();
-    record.oldPicture = picture.oldPicture.address();
-    record.tileKeepsOld = _tileKeepsOld.address();
-    record.seen = picture.seen.address();
-    record.seenAfter = picture.seenAfter.address();
-    record.sources = picture.sources.address();
-    record.rows = _rows.address();
-    record.counts = _counts.address();
-    record.width = grid.width;
-    record.height = grid.height;
-    record.tileSize = grid.tileSize;
-    record.tileColumns = grid.columns;
-    _device.upload(_record, &record, sizeof(record));
+    _push.before = _cameras.address();
+    _push.after = _cameras.address() + sizeof(gpu::CameraRecord);
+    _push.film = picture.film.address();
+    _push.oldPicture = picture.oldPicture.address();
+    _push.carried = picture.carried.address();
+    _push.tileKeepsOld = _tileKeepsOld.address();
+    _push.seen = picture.seen.address();
+    _push.seenAfter = picture.seenAfter.address();
+    _push.lists = picture.lists.address();
+    _push.strips = _strips.address();
+    _push.counts = _counts.address();
+    _push.width = grid.width;
+    _push.height = grid.height;
+    _push.tileShift = 0;
+    while (1u << _push.tileShift < grid.tileSize)
+        ++_push.tileShift;
+    _push.tileColumns = grid.columns;
 }
 
-void Reprojection::dispatch(VkCommandBuffer cmd, KernelId kernel, uint32_t invocations) {
-    gpu::ReprojectionPush push{_record.address(), 0, 0};
-    for (; push.first < invocations; push.first = push.end) {
-        push.end = push.first + std::min(invocations - push.first, PerDispatch);
-        const uint32_t groups = (push.end - push.first + gpu::TRACE_GROUP_SIZE - 1) / gpu::TRACE_GROUP_SIZE;
-        _kernels.get(kernel).dispatch(cmd, &push, groups);
-    }
+/// One invocation for so many pixels one below the other.
+void Reprojection::dispatch(VkCommandBuffer cmd, KernelId kernel, uint32_t rows) {
+    const uint32_t columns = _push.tileColumns << _push.tileShift;
+    _kernels.get(kernel).dispatch(cmd, &_push, groups(columns, gpu::TRACE_GROUP_SIZE),
+                                  groups(_push.height, rows));
+}
+
+void Reprojection::mend(VkCommandBuffer cmd, uint32_t torn) {
+    const uint32_t all = groups(torn, gpu::TRACE_GROUP_SIZE);
+    _kernels.get(Mend).dispatch(cmd, &_push, std::min(all, gpu::MEND_GROUPS), groups(all, gpu::MEND_GROUPS));
 }
 
 bool Reprojection::carry(const CarriedPicture& picture, const TileSchedule& schedule,
                          const gpu::CameraRecord& before, const gpu::CameraRecord& after,
-                         std::vector<gpu::CarriedRow>& rows) {
+                         std::vector<gpu::CarriedStrip>& strips) {
     describe(picture, schedule, before, after);
-    const uint32_t pixels = schedule.grid().width * schedule.grid().height;
     _device.run([&](VkCommandBuffer cmd) {
-        vkCmdFillBuffer(cmd, picture.sources.handle(), 0, VK_WHOLE_SIZE, gpu::NO_INDEX);
+        vkCmdFillBuffer(cmd, picture.lists.handle(), 0, VK_WHOLE_SIZE, gpu::NO_INDEX);
         vkCmdFillBuffer(cmd, _counts.handle(), 0, VK_WHOLE_SIZE, 0);
-        computeBarrier(cmd);
-        dispatch(cmd, Depth, pixels);
-        computeBarrier(cmd);
-        dispatch(cmd, Source, pixels);
+        for (KernelId kernel : {Depth, Source, Torn}) {
+            computeBarrier(cmd);
+            dispatch(cmd, kernel, kernel == Torn ? gpu::CARRIED_ROWS : 1);
+        }
     });
     gpu::CarriedCounts counts;
     _device.download(_counts, &counts, sizeof(counts));
     if (counts.inside == 0 || double(counts.inside) < LeastShare * double(counts.known)) return false;
-    _device.run([&](VkCommandBuffer cmd) { dispatch(cmd, Paint, uint32_t(_rowCount)); });
-    rows.resize(_rowCount);
-    _device.download(_rows, rows.data(), rows.size() * sizeof(gpu::CarriedRow));
+    _device.run([&](VkCommandBuffer cmd) {
+        if (counts.torn > 0) mend(cmd, counts.torn);
+        computeBarrier(cmd);
+        dispatch(cmd, Paint, 1);
+    });
+    strips.resize(_stripCount);
+    _device.download(_strips, strips.data(), strips.size() * sizeof(gpu::CarriedStrip));
     return true;
 }
 

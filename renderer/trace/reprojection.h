@@ -2,9 +2,11 @@
 /// Carries the picture on display to where another camera sees what it shows. See docs/hipr.md, "Camera
 /// motion".
 ///
-///     depth    the picture on display, wherever it is, goes to oldPicture; what is nearest in each new pixel
+///     depth    what is nearest in each new pixel
 ///     source   which old pixel shows it
-///     paint    the new picture, cracks closed and gaps guessed; what is wrong with it
+///     torn     which new pixels may be cracks or gaps
+///     mend     closes cracks, guesses gaps
+///     paint    the new picture; what is wrong with it
 #pragma once
 
 #include "renderer/hipr/schedule.h"
@@ -19,9 +21,10 @@ namespace hipr {
 struct CarriedPicture {
     const Buffer& film;       ///< gpu::FilmPixel
     const Buffer& oldPicture; ///< gpu::OldPixel
+    const Buffer& carried;    ///< gpu::OldPixel, written: the picture where it is carried to
     const Buffer& seen;       ///< gpu::SeenPoint
     const Buffer& seenAfter;  ///< gpu::SeenPoint, written
-    const Buffer& sources;    ///< gpu::CarriedSource, for the time of carry()
+    const Buffer& lists;      ///< uint32_t[gpu::CARRIED_LISTS], for the time of carry()
 };
 
 class Reprojection {
@@ -31,22 +34,23 @@ public:
     /// Whether all kernels are compiled; waits up to `patience` for it.
     bool ready(std::chrono::milliseconds patience) { return _kernels.ready(patience); }
 
-    /// Carries the picture from one camera to another; the film then holds it as means of one sample. False,
-    /// and film and seen are as they were, when less than a quarter of it stays in sight. The kernels must be
-    /// ready. `rows`: what the new picture is worth, tileSize entries a tile.
+    /// Carries the picture from one camera to another. False, and nothing is carried, when less than a
+    /// quarter of it stays in sight. The kernels must be ready. `strips`: what the new picture is worth.
     bool carry(const CarriedPicture& picture, const TileSchedule& schedule, const gpu::CameraRecord& before,
-               const gpu::CameraRecord& after, std::vector<gpu::CarriedRow>& rows);
+               const gpu::CameraRecord& after, std::vector<gpu::CarriedStrip>& strips);
 
 private:
-    enum KernelId { Depth, Source, Paint };
+    enum KernelId { Depth, Source, Torn, Mend, Paint };
     void describe(const CarriedPicture& picture, const TileSchedule& schedule,
                   const gpu::CameraRecord& before, const gpu::CameraRecord& after);
-    void dispatch(VkCommandBuffer cmd, KernelId kernel, uint32_t invocations);
+    void dispatch(VkCommandBuffer cmd, KernelId kernel, uint32_t rows);
+    void mend(VkCommandBuffer cmd, uint32_t torn);
 
     Device& _device;
     BackgroundKernels _kernels;
-    Buffer _record, _cameras, _counts, _tileKeepsOld, _rows;
-    uint64_t _rowCount = 0, _tiles = 0;
+    Buffer _cameras, _counts, _tileKeepsOld, _strips;
+    gpu::ReprojectionPush _push{};
+    uint64_t _stripCount = 0, _tiles = 0;
 };
 
 } // namespace hipr

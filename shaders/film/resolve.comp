@@ -41,7 +41,7 @@ void retire(TraceRecord trace, uint flags, uint pixel, vec3 radiance) {
     if ((flags & TILE_SAVES_OLD) != 0u) {
         const FilmPixel shown = FilmRef(trace.film).v[pixel];
         const float weight = 1.0 / float(max(shown.count, 1u));
-        oldPicture.v[pixel] = OldPixel(shown.color * weight, shown.albedo * weight);
+        oldPicture.v[pixel] = OldPixel(shown.color * weight, shown.albedo * weight, 1u);
         old = shown.color.rgb * weight;
     } else {
         old = oldPicture.v[pixel].color.rgb;

@@ -83,45 +83,52 @@ HIPR_INLINE vec3 viewDirection(CameraRecord camera, vec3 point) {
 HIPR_CONST float SURFACE_TOLERANCE = 0.05f;
 HIPR_INLINE bool oneSurface(float a, float b) { return abs(a - b) <= SURFACE_TOLERANCE * min(a, b); }
 
-// What came to a pixel of the new picture: the nearest of what was carried there.
-struct CarriedSource {
-    uint depth;              // bits of CarriedPixel::depth; NO_INDEX: nothing came
-    uint pixel;              // where from: x + y * width
-};
+// What came to the pixels of the new picture: lists with an entry a pixel, one after another, so that a kernel's memory
+// traffic is that of the lists it needs. Pixels of either picture are x | y << 16.
+HIPR_CONST uint CARRIED_DEPTHS = 0u;  // bits of CarriedPixel::depth of the nearest; NO_INDEX: nothing came
+HIPR_CONST uint CARRIED_SOURCES = 1u; // where the nearest came from
+HIPR_CONST uint CARRIED_MENDED = 2u;  // which old pixel shows instead, or GUESSED; NO_INDEX: none does
+HIPR_CONST uint CARRIED_TORN = 3u;    // pixels of the new picture that are to be mended; CarriedCounts::torn entries
+HIPR_CONST uint CARRIED_LISTS = 4u;
+HIPR_CONST uint GUESSED = 0xfffffffeu;
 
-// A row of pixels of a tile of the new picture; sums over its pixels.
-struct CarriedRow {
+// Sums over pixels of the new picture side by side, so many of them; all are of one tile.
+HIPR_CONST uint CARRIED_STRIP = 8u;
+struct CarriedStrip {
     uint uncovered;          // pixels to which nothing came
     float stale;             // radiance that is stale, as estimated; mean over the channels
     float radiance;          // mean over the channels, of what is shown
 };
 
-// Pixels of the old picture: of which it is known what they show, and of those that stay in sight.
 struct CarriedCounts {
-    uint known;
-    uint inside;
+    uint known;              // pixels of the old picture of which it is known what they show
+    uint inside;             // of those, the ones that stay in sight
+    uint torn;               // entries of CARRIED_TORN
 };
 
-struct ReprojectionRecord {
+// Push constants of all kernels of reprojection: addresses that come from here are the same for all invocations, which
+// saves a CPU device reading the cameras once for each.
+struct ReprojectionPush {
     uint64_t before;         // CameraRecord of the picture on display
     uint64_t after;          // CameraRecord it is carried to
     uint64_t film;           // FilmPixel[]
-    uint64_t oldPicture;     // OldPixel[]: the picture on display, as far as the film does not show it; then all of it
+    uint64_t oldPicture;     // OldPixel[]: on display where the film is not
+    uint64_t carried;        // OldPixel[]: the new picture
     uint64_t tileKeepsOld;   // uint[]: 1 where oldPicture is on display
     uint64_t seen;           // SeenPoint[] of the picture on display
     uint64_t seenAfter;      // SeenPoint[] of the new picture
-    uint64_t sources;        // CarriedSource[]
-    uint64_t rows;           // CarriedRow[tileSize] by tile
+    uint64_t lists;          // uint[CARRIED_LISTS * width * height]
+    uint64_t strips;         // CarriedStrip[]: row by row, rows padded to whole tiles
     uint64_t counts;         // CarriedCounts
     uint width, height;
-    uint tileSize, tileColumns;
+    uint tileShift;          // the tile size is 1 << tileShift
+    uint tileColumns;
 };
 
-struct ReprojectionPush {
-    uint64_t record;         // ReprojectionRecord
-    uint first;              // pixel, or row of a tile
-    uint end;
-};
+// Pixels one below the other among which an invocation looks for torn ones.
+HIPR_CONST uint CARRIED_ROWS = 16u;
+// Workgroups side by side for the list of torn pixels.
+HIPR_CONST uint MEND_GROUPS = 1024u;
 
 HIPR_SHARED_END
 #endif

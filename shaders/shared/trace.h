@@ -92,10 +92,11 @@ struct ScoutResult {
     float radiance;          // mean over the channels of new
 };
 
-// The picture on display before an edit, where it stays there for a while.
+// The picture on display before an edit, where it stays there for a while. Lies in memory as a FilmPixel begins.
 struct OldPixel {
     vec4 color;
     vec3 albedo;
+    uint count;              // 1
 };
 
 // How the first new samples of a work item differ from the picture on display: sums over its pixels, in units of

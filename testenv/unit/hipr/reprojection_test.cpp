@@ -88,15 +88,15 @@ TileSchedule settled() {
 struct Carried {
     bool done;
     Shown shown;
-    std::vector<gpu::CarriedRow> rows;
+    std::vector<gpu::CarriedStrip> strips;
 
     uint32_t uncovered() const {
         uint32_t sum = 0;
-        for (const gpu::CarriedRow& row : rows)
-            sum += row.uncovered;
+        for (const gpu::CarriedStrip& strip : strips)
+            sum += strip.uncovered;
         return sum;
     }
-    std::vector<float> errors() const { return staleness(Grid, rows).errors; }
+    std::vector<float> errors() const { return staleness(Grid, strips).errors; }
 };
 
 Reprojection& reprojection() {
@@ -109,11 +109,17 @@ Reprojection& reprojection() {
 Carried carry(const Shown& shown, const gpu::CameraRecord& before, const gpu::CameraRecord& after,
               const TileSchedule& schedule = settled()) {
     Buffer film = toDevice(shown.film), old = toDevice(shown.old), seen = toDevice(shown.seen),
-           seenAfter = emptyBuffer<gpu::SeenPoint>(Pixels), sources = emptyBuffer<gpu::CarriedSource>(Pixels);
+           carried = emptyBuffer<gpu::OldPixel>(Pixels), seenAfter = emptyBuffer<gpu::SeenPoint>(Pixels),
+           lists = emptyBuffer<uint32_t>(gpu::CARRIED_LISTS * Pixels);
     Carried result;
-    result.done =
-        reprojection().carry({film, old, seen, seenAfter, sources}, schedule, before, after, result.rows);
+    result.done = reprojection().carry({film, old, carried, seen, seenAfter, lists}, schedule, before, after,
+                                       result.strips);
     result.shown.film = toHost<gpu::FilmPixel>(film, Pixels);
+    if (result.done) { // as means of one sample
+        const auto pixels = toHost<gpu::OldPixel>(carried, Pixels);
+        for (uint32_t i = 0; i < Pixels; ++i)
+            result.shown.film[i] = {pixels[i].color, pixels[i].albedo, 1, {}, {}};
+    }
     result.shown.old = toHost<gpu::OldPixel>(old, Pixels);
     result.shown.seen = toHost<gpu::SeenPoint>(result.done ? seenAfter : seen, Pixels);
     return result;
@@ -183,7 +189,6 @@ TEST(Reprojection, CarriesWhatIsNearestAsTheOracleSays) {
             ASSERT_TRUE(carried.done);
             uint32_t same = 0, empty = 0, known = 0;
             for (uint32_t i = 0; i < Pixels; ++i) {
-                EXPECT_EQ(carried.shown.film[i].count, 1u);
                 if (oracle.unsure[i]) continue;
                 if (oracle.source[i] == gpu::NO_INDEX) {
                     ++empty;
@@ -317,7 +322,7 @@ TEST(Reprojection, TakesWhatIsOnDisplay) {
     Shown shown =
         shownBy(camera, [&](uint32_t x, uint32_t y) { return std::pair(toPlane(camera, x, y), Matte); });
     for (gpu::OldPixel& pixel : shown.old)
-        pixel = {glm::vec4(7.f), glm::vec3(3.f)};
+        pixel = {glm::vec4(7.f), glm::vec3(3.f), 1};
     TileSchedule schedule = settled(); // an edit that does not show in tile 0: its old picture stays
     schedule.invalidate();
     schedule.next(64, 2);
