@@ -15,7 +15,7 @@ struct SplatBenchOptions {
     std::vector<glm::uvec2> sizes;
     SplatPassOptions pass;
     int repetitions = 5;
-    double budget = 0;      ///< seconds for a scene and size: once spent, no further turn begins; 0: no limit
+    double budget = 6;      ///< seconds for a scene and size: once spent, no further turn begins; 0: no limit
     bool countOnly = false; ///< one frame each, and no times
     bool move = false;      ///< also measure a prim that moves
     std::string pictures;   ///< folder for a .ppm of every frame; empty: none

@@ -11,28 +11,19 @@
 #include "renderer/scene/camera.h"
 #include "renderer/splats/splat_file.h"
 #include "testenv/bench/statistics.h"
+#include "testenv/common/numbers.h"
 
 namespace hipr::bench {
 
 namespace {
 
-/// Numbers that depend on the seed alone.
-class Numbers {
-public:
-    explicit Numbers(uint64_t seed) : _state(seed * 2862933555777941757ull + 3037000493ull) {}
-    float operator()(float lo, float hi) {
-        _state = _state * 6364136223846793005ull + 1442695040888963407ull;
-        return lo + (hi - lo) * float(_state >> 40) / float(1 << 24);
-    }
-    glm::vec3 direction() {
-        const float z = (*this)(-1.f, 1.f), phi = (*this)(0.f, 2.f * glm::pi<float>());
-        const float r = std::sqrt(1.f - z * z);
-        return {r * std::cos(phi), r * std::sin(phi), z};
-    }
+using test::Numbers;
 
-private:
-    uint64_t _state;
-};
+glm::vec3 anyDirection(Numbers& random) {
+    const float z = random(-1.f, 1.f), phi = random(0.f, 2.f * glm::pi<float>());
+    const float r = std::sqrt(1.f - z * z);
+    return {r * std::cos(phi), r * std::sin(phi), z};
+}
 
 struct Ball {
     glm::vec3 center;
@@ -123,7 +114,7 @@ SplatScene syntheticSplats(size_t count) {
         const Ball* ball = Balls;
         while (ball + 1 != std::end(Balls) && where > area(*ball))
             where -= area(*ball++);
-        const glm::vec3 normal = random.direction();
+        const glm::vec3 normal = anyDirection(random);
         addSplat(scene.cloud, random, ball->center + ball->radius * normal, normal, spacing);
     }
     return scene;
@@ -137,7 +128,7 @@ SplatCloud splatBall(size_t count) {
     const Ball ball{{0.95f, 0.75f, 0.6f}, 0.38f};
     Numbers random(2);
     for (size_t i = 0; i < count; ++i) {
-        const glm::vec3 normal = random.direction();
+        const glm::vec3 normal = anyDirection(random);
         addSplat(cloud, random, ball.center + ball.radius * normal, normal,
                  std::sqrt(area(ball) / float(count)));
     }

@@ -6,8 +6,8 @@
   peer    splat-transform from npm (PlayCanvas; a WebGPU compute renderer) on the same capture with the same camera, in turns
           with all our modes: frame times, ratios, and how alike the pictures are
 
-Figures by the clock want an idle machine; processor time holds on a busy one, too. All of it takes about four minutes on two
-idle cores. What follows `--` goes to hipr-bench-splats (`-- --help` lists its options):
+Figures by the clock want an idle machine; processor time holds on a busy one, too. All of it takes about seven minutes of
+processor time, under four on two idle cores. What follows `--` goes to hipr-bench-splats (`-- --help` lists its options):
 
   ./hipr bench splats                                   everything
   ./hipr bench splats --only peer --pictures out        the comparison, and pictures to look at

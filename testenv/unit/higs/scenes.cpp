@@ -10,11 +10,6 @@
 
 namespace hipr::test {
 
-float Numbers::operator()(float lo, float hi) {
-    _state = _state * 6364136223846793005ull + 1442695040888963407ull;
-    return lo + (hi - lo) * float(_state >> 40) / float(1 << 24);
-}
-
 SplatCloud randomCloud(const CloudRecipe& r) {
     Numbers random(r.seed);
     SplatCloud cloud;

@@ -2,20 +2,10 @@
 /// Clouds of splats for tests, the same on every machine.
 #pragma once
 
+#include "testenv/common/numbers.h"
 #include "testenv/unit/higs/oracle.h"
 
 namespace hipr::test {
-
-/// Numbers that depend on the seed alone.
-class Numbers {
-public:
-    explicit Numbers(uint64_t seed) : _state(seed * 2862933555777941757ull + 3037000493ull) {}
-    /// Uniform between lo and hi.
-    float operator()(float lo, float hi);
-
-private:
-    uint64_t _state;
-};
 
 struct CloudRecipe {
     size_t count = 300;
