@@ -17,21 +17,11 @@ import tempfile
 from pathlib import Path
 
 from bench_scene import write_scene
+from environment import python_with
 
 BPY = "bpy==5.0.1"  # needs Python 3.11, Debian 12's
 KINDS = {"msamplesPerSecond": "Msamples/s", "msamplesPerCpuSecond": "Msamples/s of one processor"}
 HERE = Path(__file__).resolve().parent
-
-
-def bpy_python(folder):
-    """The interpreter of the environment in `folder`, made when missing."""
-    python = folder / "bin" / "python"
-    if not (folder / "complete").exists():
-        print(f"Installing {BPY} into {folder}", file=sys.stderr)
-        subprocess.run(["/usr/bin/python3", "-m", "venv", folder], check=True)
-        subprocess.run([python, "-m", "pip", "install", "-q", BPY], check=True, env=plain_environment())
-        (folder / "complete").touch()
-    return python
 
 
 def plain_environment():
@@ -119,7 +109,7 @@ def text(s):
 def measure(options, folder):
     scene = options.scene or write_scene(folder)
     size = tuple(map(int, options.size.split("x")))
-    python = bpy_python(options.environment)
+    python = python_with(options.environment, [BPY], plain_environment())
     renderers = [Hipr(options.record, scene, size, options.depth),
                  Cycles(python, scene, size, options.depth, folder / "cycles.log")]
     msamples = size[0] * size[1] * options.samples / 1e6

@@ -1,23 +1,15 @@
 #include "testenv/bench/report.h"
 
-#include <iomanip>
 #include <ostream>
-#include <sstream>
 
 namespace hipr::bench {
 
 namespace {
 
-constexpr double MiB = 1 << 20;
-
-std::string text(double value, int digits) {
-    std::ostringstream out;
-    out << std::fixed << std::setprecision(digits) << value;
-    return out.str();
-}
+using bench::text; // what follows would hide it
 
 std::string text(const Spread& s) {
-    return text(s.median, 2) + " (" + text(s.minimum, 2) + "-" + text(s.maximum, 2) + ")";
+    return text(s, 2);
 }
 
 void printRow(std::ostream& out, std::initializer_list<std::string> cells) {

@@ -1,7 +1,5 @@
 // The results of splat_bench.h as tables for people and as JSON for machines.
-#include <iomanip>
 #include <ostream>
-#include <sstream>
 
 #include "testenv/bench/splat_bench.h"
 
@@ -9,16 +7,10 @@ namespace hipr::bench {
 
 namespace {
 
-constexpr double MiB = 1 << 20;
-
-std::string text(double value, int digits) {
-    std::ostringstream out;
-    out << std::fixed << std::setprecision(digits) << value;
-    return out.str();
-}
+using bench::text; // what follows would hide it
 
 std::string text(const Spread& s) {
-    return text(s.median, 1) + " (" + text(s.minimum, 1) + "-" + text(s.maximum, 1) + ")";
+    return text(s, 1);
 }
 
 std::string text(glm::uvec2 size) {

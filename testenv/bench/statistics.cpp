@@ -1,6 +1,8 @@
 #include "testenv/bench/statistics.h"
 
 #include <algorithm>
+#include <iomanip>
+#include <sstream>
 
 #include <sys/resource.h>
 
@@ -11,6 +13,16 @@ Spread spread(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     const size_t n = values.size();
     return {(values[(n - 1) / 2] + values[n / 2]) / 2, values.front(), values.back()};
+}
+
+std::string text(double value, int digits) {
+    std::ostringstream out;
+    out << std::fixed << std::setprecision(digits) << value;
+    return out.str();
+}
+
+std::string text(const Spread& s, int digits) {
+    return text(s.median, digits) + " (" + text(s.minimum, digits) + "-" + text(s.maximum, digits) + ")";
 }
 
 double processorSeconds() {

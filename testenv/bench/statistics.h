@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -15,6 +16,11 @@ struct Spread {
 };
 Spread spread(std::vector<double> values);
 nlohmann::json toJson(const Spread& spread);
+
+/// For tables: with so many digits behind the point; a spread as median (least-most).
+std::string text(double value, int digits);
+std::string text(const Spread& spread, int digits);
+constexpr double MiB = 1 << 20;
 
 /// Seconds on the clock, and of all threads of this process together. The latter hold on a busy machine, too.
 struct Timing {

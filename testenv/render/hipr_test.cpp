@@ -12,23 +12,13 @@ namespace {
 
 constexpr uint32_t Size = 96, Tile = 8, Columns = Size / Tile, Tiles = Columns * Columns;
 
-glm::mat4x3 placed(glm::mat4x3 m, float x, float y, float z) {
-    m[3] = {x, y, z};
-    return m;
-}
-
 /// A matte floor with a mirror at its end, and balls: one in view, one behind the camera that only the mirror
 /// shows, and one above the picture of which only the shadow falls into it. Edits move one of them.
 class Scene {
 public:
     explicit Scene(Stage& stage) : _stage(stage) {
-        stage.add(quadMesh(), matte(glm::vec3(0.6f)),
-                  {glm::mat4x3({9, 0, 0}, {0, 0, -9}, {0, 9, 0}, {0, -1, 0})});
-        MaterialDesc mirror;
-        mirror.diffuseColor = constantColor(glm::vec3(0.9f));
-        mirror.metallic = constantValue(1.f);
-        mirror.roughness = constantValue(0.f);
-        mirrorId = stage.add(quadMesh(), mirror, {placed(scaling(4, 2.4f, 1), 0.f, 0.2f, -2.5f)});
+        addFloor(stage);
+        mirrorId = stage.add(quadMesh(), mirror(), {placed(scaling(4, 2.4f, 1), 0.f, 0.2f, -2.5f)});
         inView = stage.add(sphereMesh(12), matte({0.8f, 0.2f, 0.1f}), {inViewAt(0.f)});
         inMirror = stage.add(sphereMesh(12), matte({0.2f, 0.3f, 0.8f}), {inMirrorAt(0.f)});
         above = stage.add(sphereMesh(12), matte({0.3f, 0.8f, 0.3f}), {aboveAt(0.f)});

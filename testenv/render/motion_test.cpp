@@ -25,11 +25,6 @@ CameraDesc orthographic(double x, double y) {
 }
 constexpr double OrthographicPixel = 4.0 / Size;
 
-glm::mat4x3 placed(glm::mat4x3 m, float x, float y, float z) {
-    m[3] = {x, y, z};
-    return m;
-}
-
 void addDome(Stage& stage) {
     LightDesc dome;
     dome.kind = LightKind::Dome;
@@ -48,13 +43,8 @@ void addWall(Stage& stage) {
 class Room {
 public:
     explicit Room(Stage& stage) : _stage(stage) {
-        stage.add(quadMesh(), matte(glm::vec3(0.6f)),
-                  {glm::mat4x3({9, 0, 0}, {0, 0, -9}, {0, 9, 0}, {0, -1, 0})});
-        MaterialDesc mirror;
-        mirror.diffuseColor = constantColor(glm::vec3(0.9f));
-        mirror.metallic = constantValue(1.f);
-        mirror.roughness = constantValue(0.f);
-        mirrorId = stage.add(quadMesh(), mirror, {placed(scaling(2, 2, 1), 1.2f, 0, -2.f)});
+        addFloor(stage);
+        mirrorId = stage.add(quadMesh(), mirror(), {placed(scaling(2, 2, 1), 1.2f, 0, -2.f)});
         _ball = stage.add(sphereMesh(12), matte({0.8f, 0.2f, 0.1f}), {ballAt(0)});
         addDome(stage);
         _lamp.kind = LightKind::Sphere;

@@ -94,6 +94,19 @@ glm::mat4x3 scaling(float x, float y, float z) {
     return m;
 }
 
+glm::mat4x3 placed(glm::mat4x3 m, float x, float y, float z) {
+    m[3] = {x, y, z};
+    return m;
+}
+
+MaterialDesc mirror() {
+    MaterialDesc material;
+    material.diffuseColor = constantColor(glm::vec3(0.9f));
+    material.metallic = constantValue(1.f);
+    material.roughness = constantValue(0.f);
+    return material;
+}
+
 Stage::Stage(Settings settings, RendererInternals internals) {
     RendererOptions options;
     options.messages = [this](Severity severity, const std::string& subject, const std::string& text) {
@@ -159,6 +172,11 @@ ColorPicture Stage::color() {
 std::vector<Message> Stage::messages() {
     std::lock_guard<std::mutex> lock(_mutex);
     return _messages;
+}
+
+void addFloor(Stage& stage) {
+    stage.add(quadMesh(), matte(glm::vec3(0.6f)),
+              {glm::mat4x3({9, 0, 0}, {0, 0, -9}, {0, 9, 0}, {0, -1, 0})});
 }
 
 bool sameBits(const ColorPicture& a, const ColorPicture& b) {

@@ -34,11 +34,15 @@ MaterialInput constantColor(glm::vec3 color);
 MaterialInput constantValue(float value);
 /// Reflects `color` in all directions alike: no specular lobe.
 MaterialDesc matte(glm::vec3 color);
+/// Reflects 90 % of the light, perfectly smooth.
+MaterialDesc mirror();
 
 /// Seen from `eye` towards `target`, y up.
 CameraDesc lookAt(glm::dvec3 eye, glm::dvec3 target, double verticalDegrees = 40, double aspect = 1);
 glm::mat4x3 translation(float x, float y, float z);
 glm::mat4x3 scaling(float x, float y, float z);
+/// The same, moved there.
+glm::mat4x3 placed(glm::mat4x3 m, float x, float y, float z);
 
 /// A renderer with a scene, and everything it said.
 class Stage {
@@ -73,6 +77,9 @@ private:
     std::mutex _mutex;
     std::vector<Message> _messages;
 };
+
+/// A matte square of 9 by 9 at y = -1, facing up.
+void addFloor(Stage& stage);
 
 /// Whether two pictures are equal to the last bit.
 bool sameBits(const ColorPicture& a, const ColorPicture& b);

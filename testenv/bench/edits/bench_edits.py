@@ -19,20 +19,10 @@ import tempfile
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+from environment import enter_environment
+
 PACKAGES = ("numpy", "matplotlib", "OpenEXR", "flip-evaluator")
-
-
-def enter_environment(folder):
-    """Goes on in the virtual environment in `folder`, which is made when missing."""
-    if Path(sys.prefix).resolve() == folder.resolve():
-        return
-    python = folder / "bin" / "python"
-    if not (folder / "complete").exists():
-        print(f"Installing {', '.join(PACKAGES)} into {folder}", file=sys.stderr)
-        subprocess.run(["/usr/bin/python3", "-m", "venv", folder], check=True)
-        subprocess.run([python, "-m", "pip", "install", "-q", *PACKAGES], check=True)
-        (folder / "complete").touch()
-    os.execv(python, [str(python), *sys.argv])
 
 
 def parse():
@@ -86,7 +76,7 @@ class Recorder:
 
 def main():
     options = parse()
-    enter_environment(options.environment)
+    enter_environment(options.environment, PACKAGES)
     import edit_flip
     from edit_report import Report
     from edit_runs import measure

@@ -27,6 +27,9 @@ import tempfile
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+from environment import enter_environment
+
 PACKAGES = ("numpy", "Pillow")
 BASELINE = "flat16-aabb"
 
@@ -47,19 +50,6 @@ def parse():
                         help="where packages are installed [%(default)s]")
     parser.add_argument("arguments", nargs="*", metavar="-- ARGUMENT", help="for hipr-bench-splats, in part modes")
     return parser.parse_args()
-
-
-def enter_environment(folder):
-    """Goes on in the virtual environment in `folder`, which is made when missing."""
-    if Path(sys.prefix).resolve() == folder.resolve():
-        return
-    python = folder / "bin" / "python"
-    if not (folder / "complete").exists():
-        print(f"Installing {', '.join(PACKAGES)} into {folder}", file=sys.stderr)
-        subprocess.run(["/usr/bin/python3", "-m", "venv", folder], check=True)
-        subprocess.run([python, "-m", "pip", "install", "-q", *PACKAGES], check=True)
-        (folder / "complete").touch()
-    os.execv(python, [str(python), *sys.argv])
 
 
 def measure_modes(options):
@@ -161,7 +151,7 @@ def compare_with_peer(options):
 def main():
     options = parse()
     if options.only != "modes":
-        enter_environment(options.environment / "python")
+        enter_environment(options.environment / "python", PACKAGES)
     if options.only != "peer":
         measure_modes(options)
     if options.only != "modes":
