@@ -276,7 +276,7 @@ bool RendererImpl::readAov(const AovRequest& aov, void* dst, size_t words) {
     return guarded([&] {
         if (!isTileAov(aov.kind)) {
             if (!_film.read(aov, _schedule, dst, words)) return false;
-            _splats.blend(aov, dst);
+            _splats.blend(aov, dst, _film.pixels());
             return true;
         }
         if (!_film.holds(aov) || words != _film.pixels()) return false;

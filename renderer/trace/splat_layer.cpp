@@ -62,6 +62,7 @@ void SplatLayer::setScene(const SplatTable& table, const std::vector<SplatPlacem
 }
 
 void SplatLayer::setView(const gpu::CameraRecord& camera, uint32_t width, uint32_t height) {
+    _drawn &= width == _view.width && height == _view.height; // what is drawn does not fit another film
     _view.camera = camera;
     _view.width = width;
     _view.height = height;
@@ -133,8 +134,8 @@ void SplatLayer::fail(const char* reason) {
     _device.messages()(Severity::Error, "", std::string(reason) + "; the picture is drawn without splats");
 }
 
-void SplatLayer::blend(const AovRequest& aov, void* values) const {
-    if (!_drawn) return;
+void SplatLayer::blend(const AovRequest& aov, void* values, uint64_t pixels) const {
+    if (!_drawn || _pixels.size() != pixels) return;
     const auto replace = [&](auto word) {
         for (size_t i = 0; i < _pixels.size(); ++i)
             if (_pixels[i].splat != gpu::NO_SPLAT) word(_pixels[i], i);

@@ -43,8 +43,9 @@ public:
     /// splats.
     bool render(const std::atomic<bool>& cancel);
 
-    /// Puts the splats over what the film holds of an AOV of `width * height` pixels.
-    void blend(const AovRequest& aov, void* values) const;
+    /// Puts the splats over what the film holds of an AOV of so many pixels. A film that splats were not
+    /// drawn for yet stays as it is.
+    void blend(const AovRequest& aov, void* values, uint64_t pixels) const;
 
     /// Device memory of the clouds.
     uint64_t bytes() const;

@@ -1,4 +1,6 @@
 // Splats in the picture: over, behind and between what is path traced, and through edits.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "testenv/render/scene_kit.h"
@@ -196,6 +198,11 @@ TEST(Splats, FollowMeshesAndCamera) {
                              other.look({2, 1, 5});
                          })));
     stage.film(Size, Size / 2, Aovs);
+    // Before the splats are drawn anew: what was drawn for the larger film must not be put into this one.
+    const size_t words = size_t(Size) * Size / 2 * 4;
+    std::vector<float> color(2 * words, -7.f);
+    ASSERT_TRUE(stage.renderer->readAov({AovKind::Color, {}}, color.data(), words));
+    EXPECT_EQ(std::count(color.begin() + words, color.end(), -7.f), std::ptrdiff_t(words));
     stage.render();
     EXPECT_EQ(stage.read<int>(AovKind::PrimId).values.size(), size_t(Size) * Size / 2);
 }
