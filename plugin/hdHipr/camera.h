@@ -1,10 +1,11 @@
 /// @file camera.h
 /// HdHiprCamera: a scene camera. View, projection, apertures and clipping range reach the renderer as the
-/// matrices of the render pass state, which also applies the window policy.
+/// matrices of the render pass state, which also applies the window policy; lens and exposure come from here.
 #pragma once
 
 #include "plugin/hdHipr/compat.h"
 #include "pxr/imaging/hd/camera.h"
+#include "renderer/api/camera.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
 
@@ -15,9 +16,19 @@ public:
     /// All parameters: HdCamera leaves out those that it does not read itself.
     HdDirtyBits GetInitialDirtyBitsMask() const override { return AllDirty; }
 
-    /// Tells which authored parameters have no effect.
     void Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdDirtyBits* dirtyBits) override;
     void Finalize(HdRenderParam* renderParam) override;
+
+    /// From fStop, focalLength, focusDistance, focusOn, `hipr:apertureBlades` and `hipr:apertureRotation`.
+    hipr::Lens const& lens() const { return _lens; }
+
+    /// The factor that exposure, iso, time, fStop and responsivity of the exposure make together
+    /// (UsdGeomCamera::ComputeLinearExposureScale).
+    float exposure() const { return _exposure; }
+
+private:
+    hipr::Lens _lens;
+    float _exposure = 1.f;
 };
 
 PXR_NAMESPACE_CLOSE_SCOPE

@@ -17,10 +17,6 @@ namespace {
 /// Copying pictures costs time that sampling could use; nobody sees more of them than this.
 constexpr std::chrono::milliseconds publishInterval{50};
 
-bool sameCamera(hipr::CameraDesc const& a, hipr::CameraDesc const& b) {
-    return a.worldToView == b.worldToView && a.projection == b.projection;
-}
-
 /// Puts premultiplied colour over the colour the host clears with.
 void compositeOver(std::vector<float>& rgba, GfVec4f const& background) {
     if (background == GfVec4f(0.f)) {
@@ -74,7 +70,7 @@ void RenderLoop::submitSettings(hipr::Settings const& settings) {
 
 void RenderLoop::submitFrame(Frame const& frame) {
     std::lock_guard<std::mutex> lock(_requestMutex);
-    const bool sameView = sameCamera(_frame.camera, frame.camera) && _version.load() > 0;
+    const bool sameView = _frame.camera == frame.camera && _version.load() > 0;
     if (sameView && _frame.rect == frame.rect && _frame.targets == frame.targets) {
         return;
     }

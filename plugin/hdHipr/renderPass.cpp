@@ -1,6 +1,7 @@
 #include "plugin/hdHipr/renderPass.h"
 
 #include "plugin/hdHipr/aov.h"
+#include "plugin/hdHipr/camera.h"
 #include "plugin/hdHipr/convert.h"
 #include "plugin/hdHipr/messages.h"
 #include "plugin/hdHipr/renderBuffer.h"
@@ -12,6 +13,30 @@
 PXR_NAMESPACE_OPEN_SCOPE
 
 using namespace hdhipr;
+
+namespace {
+
+/// Lens and exposure only where the host says which camera it looks through; a free camera may have clip
+/// planes.
+hipr::CameraDesc cameraOf(HdRenderPassState const& state) {
+    hipr::CameraDesc desc;
+    desc.worldToView = toGlm(state.GetWorldToViewMatrix());
+    desc.projection = toGlm(state.GetProjectionMatrix());
+    if (auto const* camera = dynamic_cast<HdHiprCamera const*>(state.GetCamera())) {
+        desc.lens = camera->lens();
+        desc.exposure = camera->exposure();
+    }
+    for (GfVec4d const& plane : state.GetClipPlanes()) {
+        desc.clipPlanes.emplace_back(plane[0], plane[1], plane[2], plane[3]);
+    }
+    if (desc.clipPlanes.size() > hipr::MaxClipPlanes) {
+        desc.clipPlanes.resize(hipr::MaxClipPlanes);
+        warnOnce("", "only the first " + std::to_string(hipr::MaxClipPlanes) + " clipping planes are used");
+    }
+    return desc;
+}
+
+} // namespace
 
 HdHiprRenderPass::HdHiprRenderPass(HdRenderIndex* index, HdRprimCollection const& collection,
                                    HdHiprRenderParam& param)
@@ -68,13 +93,10 @@ void HdHiprRenderPass::_Execute(HdRenderPassStateSharedPtr const& state, TfToken
         warnOnce("", "the host asks for no AOV, so there is nothing to render into");
         return;
     }
-    if (!state->GetClipPlanes().empty()) {
-        warnOnce("", "clipping planes are not supported and have no effect");
-    }
     warnOfCullStyle("", state->GetCullStyle());
 
     Frame frame;
-    frame.camera = {toGlm(state->GetWorldToViewMatrix()), toGlm(state->GetProjectionMatrix())};
+    frame.camera = cameraOf(*state);
     frame.rect = renderRect(*state, height);
     frame.targets = std::move(targets);
     frame.skyVisible =

@@ -22,11 +22,13 @@ std::string componentLetters(const std::string& aov, int components, bool intege
 
 } // namespace
 
-std::vector<std::string> aovChannelNames(const std::string& aov, int components, bool integer) {
+std::vector<std::string> aovChannelNames(const std::string& aov, int components, bool integer,
+                                         const std::string& layer) {
     const std::string letters = componentLetters(aov, components, integer);
+    const std::string name = layer.empty() ? aov : layer;
     std::string prefix;
-    if (aov != "color") {
-        prefix = aov + ".";
+    if (name != "color") {
+        prefix = name + ".";
         std::replace(prefix.begin(), prefix.end(), ':', '.');
     }
     std::vector<std::string> names;

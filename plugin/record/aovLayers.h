@@ -14,7 +14,9 @@ namespace hipr::record {
 ///   other float vectors         <aov>.R <aov>.G <aov>.B <aov>.A
 ///   other single floats         <aov>.V
 ///   ids and counts (integers)   <aov>.I
-/// ':' becomes '.', so "primvars:st" is the layer "primvars.st".
-std::vector<std::string> aovChannelNames(const std::string& aov, int components, bool integer);
+/// ':' becomes '.', so "primvars:st" is the layer "primvars.st". `layer` stands for <aov> where it is not
+/// empty; the layer "color" is the main one.
+std::vector<std::string> aovChannelNames(const std::string& aov, int components, bool integer,
+                                         const std::string& layer = {});
 
 } // namespace hipr::record

@@ -8,6 +8,7 @@
 #include "plugin/record/recordTask.h"
 #include "pxr/base/gf/half.h"
 #include "pxr/base/tf/stringUtils.h"
+#include "pxr/imaging/cameraUtil/conformWindow.h"
 #include "pxr/imaging/hd/camera.h"
 #include "pxr/imaging/hd/engine.h"
 #include "pxr/imaging/hd/pluginRenderDelegateUniqueHandle.h"
@@ -43,6 +44,15 @@ TfTokenVector renderTags(const std::vector<std::string>& purposes) {
     for (const std::string& purpose : purposes)
         tags.push_back(purpose == "default" ? HdRenderTagTokens->geometry : TfToken(purpose));
     return tags;
+}
+
+/// How a camera is fitted to a picture of another aspect.
+CameraUtilConformWindowPolicy windowPolicy(const std::string& conformPolicy) {
+    if (conformPolicy == "cropAperture") return CameraUtilCrop;
+    if (conformPolicy == "adjustApertureWidth") return CameraUtilMatchVertically;
+    if (conformPolicy == "adjustApertureHeight") return CameraUtilMatchHorizontally;
+    if (conformPolicy == "adjustPixelAspectRatio") return CameraUtilDontConform;
+    return CameraUtilFit;
 }
 
 bool contains(const std::vector<std::string>& list, const char* item) {
@@ -201,6 +211,7 @@ void Engine::populate(const UsdStageRefPtr& stage, const SdfPath& camera, const 
     _impl->scene->SetDisplayRender(contains(options.purposes, "render"));
     _impl->scene->SetDisplayProxy(contains(options.purposes, "proxy"));
     _impl->scene->SetDisplayGuides(contains(options.purposes, "guide"));
+    _impl->scene->SetWindowPolicy(windowPolicy(options.conformPolicy));
     _impl->scene->SetRefineLevelFallback(options.refineLevel);
     _impl->scene->SetCameraForSampling(camera); // whose shutter says what moves
     _impl->scene->Populate(stage->GetPseudoRoot());

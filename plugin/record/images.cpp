@@ -35,7 +35,8 @@ OIIO::ImageSpec exrSpec(const Picture& picture) {
     OIIO::ImageSpec spec(picture.width, picture.height, int(channels), OIIO::TypeFloat);
     spec.channelnames.clear();
     for (const Layer& layer : picture.layers)
-        for (const std::string& name : aovChannelNames(layer.aov, layer.components, layer.integer)) {
+        for (const std::string& name :
+             aovChannelNames(layer.aov, layer.components, layer.integer, layer.name)) {
             if (name == "A") spec.alpha_channel = int(spec.channelnames.size());
             spec.channelnames.push_back(name);
             spec.channelformats.push_back(layer.integer ? OIIO::TypeUInt : OIIO::TypeFloat);

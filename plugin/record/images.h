@@ -17,6 +17,7 @@ struct Layer {
     int components = 0;
     bool integer = false;
     std::vector<uint32_t> words; ///< float bits, or two's complement ints: width * height * components
+    std::string name = {}; ///< of its channels in an EXR; empty: that of the AOV
     const float* floats() const { return reinterpret_cast<const float*>(words.data()); }
 };
 

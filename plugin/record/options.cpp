@@ -22,6 +22,7 @@ const char* const epilogue = R"(Examples:
   hiprrecord shot.usd -o shot.####.exr --frames 1001:1100 --camera shotCam
   hiprrecord shot.usd -o layers.exr --aovs color,normal,cameraDepth,primId
   hiprrecord shot.usd -o quick.jpg --time 10 --set hipr:maxDepth=2
+  hiprrecord shot.usd --frames 1001:1100                    the files that the stage's render settings name
   hiprrecord scene.usda -o picture.png --edits edits.json   a picture after each edit of the live scene
 
 EXR files hold every AOV: color as R G B A, others as layers <aov>.X/Y/Z, .R/G/B, .Z or .V (32-bit float); ids
@@ -94,7 +95,9 @@ std::pair<std::string, std::string> parseSetting(const std::string& text) {
 }
 
 void addSceneOptions(CLI::App& app, Options& options, RawOptions& raw) {
-    app.add_option("scene", options.scene, "The stage: .usd, .usda, .usdc or .usdz, or a capture: .ply or .spz")->type_name("SCENE");
+    app.add_option("scene", options.scene,
+                   "The stage: .usd, .usda, .usdc or .usdz, or a capture: .ply or .spz")
+        ->type_name("SCENE");
     app.add_option(
            "--camera,-c", options.camera,
            "Camera by name or prim path; 'auto' frames the whole stage. Default: the camera of the stage's "
@@ -134,6 +137,12 @@ void addPictureOptions(CLI::App& app, Options& options, RawOptions& raw) {
         ->group("Picture");
     app.add_option("--aovs", raw.aovs, "AOVs to render, e.g. color,depth,normal,primId,primvars:st [color]")
         ->type_name("LIST")
+        ->group("Picture");
+    app.add_option(
+           "--render-settings", options.renderSettings,
+           "RenderSettings prim that names camera, size, purposes, settings and, without -o, the files "
+           "to write. Default without -o: that of the stage")
+        ->type_name("PRIMPATH")
         ->group("Picture");
     app.add_flag("--list-aovs", options.listAovs, "Print the AOVs the renderer has")->group("Picture");
     app.add_option("--view", options.view,
@@ -204,27 +213,11 @@ void addReportOptions(CLI::App& app, Options& options, RawOptions& raw) {
     app.add_flag("-v,--verbose", raw.verbose, "Print status messages too")->group("Reports");
 }
 
-/// Files of several frames need names of their own.
-void checkPlaceholder(const std::string& output, const std::vector<double>& frames) {
-    const FramePattern pattern(output);
-    if (frames.size() > 1 && !pattern.hasPlaceholder())
-        throw Failure(ExitUsage,
-                      "'" + output + "' needs a frame placeholder such as #### for several frames");
-    const bool fractional =
-        std::any_of(frames.begin(), frames.end(), [](double frame) { return frame != std::round(frame); });
-    if (frames.size() > 1 && fractional && !pattern.hasFraction())
-        throw Failure(ExitUsage,
-                      "'" + output + "' needs a placeholder such as ####.## for fractional frames");
-}
-
 void checkOutputs(const Options& options) {
-    if (options.outputs.empty() && options.dumpFile.empty() && options.editFramesFolder.empty())
-        throw Failure(ExitUsage, "no output: give -o FILE (see --help)");
     const bool hasColor = std::find(options.aovs.begin(), options.aovs.end(), "color") != options.aovs.end();
     for (const std::string& output : options.outputs) {
-        const std::string kind = imageKind(output);
-        if (kind.empty()) throw Failure(ExitUsage, "'" + output + "': image files end in .exr, .png or .jpg");
-        if (kind != "exr" && !hasColor)
+        checkImageName(output);
+        if (imageKind(output) != "exr" && !hasColor)
             throw Failure(ExitUsage, "'" + output + "' shows the AOV color, which --aovs leaves out");
         checkPlaceholder(output, options.frames);
     }
@@ -261,6 +254,23 @@ void interpret(const RawOptions& raw, Options& options) {
 
 } // namespace
 
+void checkImageName(const std::string& output) {
+    if (imageKind(output).empty())
+        throw Failure(ExitUsage, "'" + output + "': image files end in .exr, .png or .jpg");
+}
+
+void checkPlaceholder(const std::string& output, const std::vector<double>& frames) {
+    const FramePattern pattern(output);
+    if (frames.size() > 1 && !pattern.hasPlaceholder())
+        throw Failure(ExitUsage,
+                      "'" + output + "' needs a frame placeholder such as #### for several frames");
+    const bool fractional =
+        std::any_of(frames.begin(), frames.end(), [](double frame) { return frame != std::round(frame); });
+    if (frames.size() > 1 && fractional && !pattern.hasFraction())
+        throw Failure(ExitUsage,
+                      "'" + output + "' needs a placeholder such as ####.## for fractional frames");
+}
+
 std::optional<Options> parseOptions(int argc, const char* const* argv) {
     Options options;
     RawOptions raw;
@@ -274,7 +284,9 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     addReportOptions(app, options, raw);
     try {
         app.parse(argc, argv);
-        if (app.count("--purposes") > 0) options.purposes = parsePurposes(raw.purposes);
+        options.purposesGiven = app.count("--purposes") > 0;
+        if (options.purposesGiven) options.purposes = parsePurposes(raw.purposes);
+        options.aovsGiven = app.count("--aovs") > 0;
         interpret(raw, options);
     } catch (const CLI::Success& request) {
         app.exit(request);

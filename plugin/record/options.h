@@ -2,6 +2,7 @@
 /// The command line of hiprrecord.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,6 +11,18 @@
 #include "plugin/record/diagnostics.h"
 
 namespace hipr::record {
+
+/// An AOV, and the name of its layer in a file.
+struct LayerName {
+    std::string aov, name;
+};
+
+/// A file that a RenderProduct prim asks for.
+struct ProductFile {
+    std::string path;                          ///< may hold frame placeholders
+    std::map<double, std::string> pathAtFrame; ///< where the name is animated
+    std::vector<LayerName> layers;
+};
 
 struct Options {
     std::string scene;
@@ -31,6 +44,13 @@ struct Options {
     float exposure = 0;
     bool alpha = false;
 
+    std::string renderSettings; ///< RenderSettings prim; empty: the stage's own, where there are no outputs
+    /// From render settings, never from the command line.
+    std::vector<ProductFile> products;
+    std::string conformPolicy; ///< aspectRatioConformPolicy; empty: the default
+    std::vector<std::pair<std::string, std::string>> sceneSettings; ///< those that the renderer knows count
+    bool aovsGiven = false, purposesGiven = false;                  ///< on the command line
+
     bool listSettings = false, listAovs = false, listCameras = false, listRenderers = false;
     std::string editsFile, editFramesFolder; ///< empty: none
     std::string dumpFile; ///< may hold a frame placeholder; empty: none; "-": standard output
@@ -40,9 +60,21 @@ struct Options {
     Verbosity verbosity = Verbosity::Normal;
 
     /// The scene is only to be told of, not rendered.
-    bool onlyDump() const { return outputs.empty() && editFramesFolder.empty() && !dumpFile.empty(); }
+    bool onlyDump() const {
+        return outputs.empty() && products.empty() && editFramesFolder.empty() && !dumpFile.empty();
+    }
+    /// What to write is up to the products of the stage.
+    bool asksForProducts() const {
+        return outputs.empty() && products.empty() && dumpFile.empty() && editFramesFolder.empty();
+    }
     bool onlyLists() const { return listSettings || listAovs || listCameras || listRenderers; }
 };
+
+/// Throws Failure with ExitUsage for a file of a kind that cannot be written.
+void checkImageName(const std::string& output);
+
+/// Throws Failure with ExitUsage where the files of several frames would have the same name.
+void checkPlaceholder(const std::string& output, const std::vector<double>& frames);
 
 /// Parses the command line. Returns nothing when help or the version was printed. Throws Failure with
 /// ExitUsage.

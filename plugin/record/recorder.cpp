@@ -9,10 +9,11 @@
 #include "plugin/record/editFrames.h"
 #include "plugin/record/edits.h"
 #include "plugin/record/engine.h"
-#include "plugin/record/frames.h"
 #include "plugin/record/lists.h"
 #include "plugin/record/materialCycles.h"
+#include "plugin/record/outputs.h"
 #include "plugin/record/progress.h"
+#include "plugin/record/renderProducts.h"
 #include "plugin/record/renderSettings.h"
 #include "plugin/record/report.h"
 #include "pxr/base/plug/registry.h"
@@ -65,13 +66,13 @@ private:
     void write(FrameReport& report);
     void writePictures(FrameReport& report);
     void writeDump(const FrameReport& report);
-    std::string outputPath(const FramePattern& pattern, const FrameReport& report) const;
+    std::string outputPath(const Output& output, const FrameReport& report) const;
     void finish() const;
 
     const Options& _options;
     const std::vector<Edit>& _edits;
     const std::atomic<bool>& _interrupted;
-    std::vector<FramePattern> _outputs;
+    std::vector<Output> _outputs;
     DisplayOptions _display;
     RecordingReport _report;
     UsdStageRefPtr _stage;
@@ -112,16 +113,20 @@ DisplayOptions displayOptions(const Options& options) {
 
 Recording::Recording(const Options& options, const std::vector<Edit>& edits,
                      const std::atomic<bool>& interrupted)
-    : _options(options), _edits(edits), _interrupted(interrupted), _display(displayOptions(options)),
-      _engine(options.renderer, options.device),
+    : _options(options), _edits(edits), _interrupted(interrupted), _outputs(outputsOf(options)),
+      _display(displayOptions(options)), _engine(options.renderer, options.device),
       _progress(options.verbosity == Verbosity::Quiet ? nullptr : stderr, isatty(STDERR_FILENO)) {
-    for (const std::string& output : options.outputs)
-        _outputs.emplace_back(output);
     configureRenderer();
 }
 
 void Recording::configureRenderer() {
     HdRenderDelegate& delegate = _engine.delegate();
+    for (const auto& [key, value] : _options.sceneSettings)
+        if (hasSetting(delegate, key))
+            applySetting(delegate, key, value);
+        else if (TfStringStartsWith(key, "hipr:"))
+            printWarning("the render settings of the scene set '" + key +
+                         "', which the renderer does not have");
     const TfToken samples = HdRenderSettingsTokens->convergedSamplesPerPixel;
     if (_options.samples > 0 || _options.seconds > 0) {
         const int count = _options.samples > 0 ? _options.samples : 1 << 20;
@@ -165,10 +170,10 @@ void Recording::open() {
     _frames = _options.frames.empty() ? std::vector<double>{defaultFrame(_stage)} : _options.frames;
     FrameReport first;
     first.frame = _frames.front();
-    for (const FramePattern& output : _outputs)
+    for (const Output& output : _outputs)
         requireWritable(outputPath(output, first));
     if (!_options.dumpFile.empty() && _options.dumpFile != "-")
-        requireWritable(outputPath(FramePattern(_options.dumpFile), first));
+        requireWritable(outputPath(Output(_options.dumpFile), first));
     if (!_options.statsFile.empty() && _options.statsFile != "-") requireWritable(_options.statsFile);
     if (!_options.editFramesFolder.empty()) {
         _editFrames = std::make_unique<EditFrames>(_options.editFramesFolder, _display);
@@ -189,7 +194,8 @@ void Recording::open() {
         std::fprintf(stderr, "recording %s with %s: %d x %d, camera %s\n", _report.scene.c_str(),
                      _report.renderer.c_str(), _view.width, _view.height, _report.camera.c_str());
     _engine.populate(_stage, _view.camera,
-                     {_view.width, _view.height, _options.aovs, _options.purposes, _options.refineLevel});
+                     {_view.width, _view.height, _options.aovs, _options.purposes, _options.conformPolicy,
+                      _options.refineLevel});
 }
 
 void Recording::recordFrames() {
@@ -323,8 +329,8 @@ bool Recording::takeBatch(const FrameReport& report) {
     return true;
 }
 
-std::string Recording::outputPath(const FramePattern& pattern, const FrameReport& report) const {
-    const std::string path = pattern.path(report.frame);
+std::string Recording::outputPath(const Output& output, const FrameReport& report) const {
+    const std::string path = output.path(report.frame);
     if (_options.editsFile.empty()) return path;
     return editPath(path, report.edit > 0 ? _edits[size_t(report.edit) - 1] : Edit(), _edits.size());
 }
@@ -348,9 +354,9 @@ void Recording::writePictures(FrameReport& report) {
     picture.info.frame = report.frame;
     picture.info.samples = report.samples;
     picture.info.seconds = report.seconds;
-    for (const FramePattern& output : _outputs) {
+    for (const Output& output : _outputs) {
         const std::string path = outputPath(output, report);
-        writePicture(path, picture, _display);
+        writePicture(path, output.content(picture), _display);
         report.files.push_back(path);
         if (_options.verbosity != Verbosity::Quiet)
             std::fprintf(stderr, "wrote %s (%d x %d, %ld samples, %s)\n", path.c_str(), picture.width,
@@ -360,7 +366,7 @@ void Recording::writePictures(FrameReport& report) {
 
 void Recording::writeDump(const FrameReport& report) {
     const bool toFile = _options.dumpFile != "-";
-    writeText(toFile ? outputPath(FramePattern(_options.dumpFile), report) : "-", _engine.sceneDump());
+    writeText(toFile ? outputPath(Output(_options.dumpFile), report) : "-", _engine.sceneDump());
 }
 
 void Recording::finish() const {
@@ -384,7 +390,11 @@ ExitCode record(const Options& options, const std::atomic<bool>& interrupted) {
     }
     const std::vector<Edit> edits =
         options.editsFile.empty() ? std::vector<Edit>() : readEdits(options.editsFile);
-    return Recording(options, edits, interrupted).run();
+    const Recordings recordings = recordingsOf(options);
+    ExitCode code = ExitOk;
+    for (size_t i = 0; i < recordings.options.size() && code == ExitOk; ++i)
+        code = Recording(recordings.options[i], edits, interrupted).run();
+    return code;
 }
 
 } // namespace hipr::record

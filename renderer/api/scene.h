@@ -7,21 +7,13 @@
 #include <optional>
 #include <variant>
 
+#include "renderer/api/camera.h"
 #include "renderer/api/light.h"
 #include "renderer/api/material.h"
 #include "renderer/api/mesh.h"
 #include "renderer/api/splats.h"
 
 namespace hipr {
-
-/// A view as matrices only, so that any host camera fits. Perspective and orthographic are told apart by the matrix.
-struct CameraDesc {
-    glm::dmat4 worldToView{1.0}; ///< right-handed, looks along -Z
-    glm::dmat4 projection{1.0};  ///< OpenGL clip space (-w <= z <= w); already fitted to the film's aspect
-    bool operator==(const CameraDesc& o) const {
-        return worldToView == o.worldToView && projection == o.projection;
-    }
-};
 
 /// An object: one geometry or one cloud of splats, its materials, and its placement.
 struct ObjectDesc {

@@ -65,6 +65,31 @@ ViewRays viewRays(const glm::dmat4& m) {
     return rays;
 }
 
+/// Adds the lens. Its disk lies in the plane of depth 0, as the eye does.
+void addLens(const Lens& lens, const glm::dmat3& toWorld, gpu::CameraRecord& record) {
+    if (!(lens.radius > 0 && std::isfinite(lens.radius))) return;
+    if (!(lens.focusDistance > 0 && std::isfinite(lens.focusDistance))) return;
+    if (record.originX != glm::vec3(0) || record.originY != glm::vec3(0)) return; // orthographic
+    const double turn = glm::radians(double(lens.bladeRotation));
+    const glm::dvec3 x = glm::normalize(toWorld[0]), y = glm::normalize(toWorld[1]);
+    record.lensX = lens.radius * (std::cos(turn) * x + std::sin(turn) * y);
+    record.lensY = lens.radius * (std::cos(turn) * y - std::sin(turn) * x);
+    record.focusDepth = float(lens.focusDistance * glm::length(glm::dvec3(record.forward)));
+    record.lensBlades = lens.blades < 3 ? 0 : uint32_t(lens.blades);
+}
+
+static_assert(MaxClipPlanes == gpu::MAX_CLIP_PLANES);
+
+void addClipPlanes(const CameraDesc& camera, const glm::dvec3& origin, gpu::CameraRecord& record) {
+    for (const glm::dvec4& plane : camera.clipPlanes) {
+        const glm::dvec4 world = glm::transpose(camera.worldToView) * plane;
+        if (record.clipPlaneCount == gpu::MAX_CLIP_PLANES) return;
+        if (!std::isfinite(glm::dot(world, world))) continue;
+        record.clipPlanes[record.clipPlaneCount++] =
+            glm::dvec4(glm::dvec3(world), glm::dot(world, glm::dvec4(origin, 1)));
+    }
+}
+
 } // namespace
 
 std::optional<gpu::CameraRecord> cameraRecord(const CameraDesc& camera) {
@@ -89,6 +114,8 @@ std::optional<gpu::CameraRecord> cameraRecord(const CameraDesc& camera) {
     record.directionY = toWorld * rays.directionY;
     const glm::dmat4& v = camera.worldToView; // may scale: depths are in view units
     record.forward = -glm::dvec3(v[0].z, v[1].z, v[2].z);
+    addLens(camera.lens, toWorld, record);
+    addClipPlanes(camera, glm::dvec3(record.origin), record);
     return record;
 }
 

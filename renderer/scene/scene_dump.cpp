@@ -123,6 +123,11 @@ void dumpCamera(SceneDump& dump, const CameraDesc& camera) {
     SceneDump::Element& out = dump.element("camera", "view");
     out.fact("worldToView", camera.worldToView);
     out.fact("projection", camera.projection);
+    out.fact("lens", camera.lens.radius, camera.lens.focusDistance, camera.lens.blades,
+             camera.lens.bladeRotation);
+    for (const glm::dvec4& plane : camera.clipPlanes)
+        out.fact("clipPlane", plane);
+    out.fact("exposure", camera.exposure);
 }
 
 void dumpMesh(SceneDump& dump, const TriangleMesh& mesh) {

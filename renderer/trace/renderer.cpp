@@ -44,6 +44,11 @@ bool anyCamera(const ChangedSet& changed) {
                        [](const ChangedElement& element) { return element.change & Change::Camera; });
 }
 
+/// Whether samples must be taken again although the view is the same.
+bool lensChanged(const std::optional<CameraDesc>& before, const std::optional<CameraDesc>& now) {
+    return before && now && !before->sameSamples(*now);
+}
+
 } // namespace
 
 RendererImpl::RendererImpl(MachinePtr machine, const RendererOptions& options,
@@ -79,7 +84,8 @@ ChangedSet RendererImpl::commit(SceneEdit& edit) {
         const std::optional<CameraDesc> before = _scene.camera();
         changed = _scene.apply(edit.take());
         if (changed.empty()) return true;
-        const bool camera = anyCamera(changed), traced = _scene.tracedChanged();
+        const bool camera = anyCamera(changed) && !(before && before->sameView(*_scene.camera()));
+        const bool traced = _scene.tracedChanged() || lensChanged(before, _scene.camera());
         std::vector<WorldBox> regions = _scene.takeVacated();
         _scene.commit();
         _scene.addOccupied(changed, regions);
@@ -277,12 +283,22 @@ bool RendererImpl::readAov(const AovRequest& aov, void* dst, size_t words) {
         if (!isTileAov(aov.kind)) {
             if (!_film.read(aov, _schedule, dst, words)) return false;
             _splats.blend(aov, dst, _film.pixels());
+            if (aov.kind == AovKind::Color) expose(static_cast<float*>(dst));
             return true;
         }
         if (!_film.holds(aov) || words != _film.pixels()) return false;
         fillTileAov(aov.kind, _schedule, static_cast<uint32_t*>(dst));
         return true;
     });
+}
+
+/// Scales a picture by the camera's exposure.
+void RendererImpl::expose(float* rgba) const {
+    const float exposure =
+        _scene.camera() && _settings.exposureCompensation ? _scene.camera()->exposure : 1.f;
+    if (exposure == 1.f) return;
+    for (size_t i = 0; i < 4 * _film.pixels(); ++i)
+        if (i % 4 != 3) rgba[i] *= exposure;
 }
 
 MemoryReport RendererImpl::memory() const {

@@ -67,6 +67,7 @@ private:
     bool complete() const;
     bool firstHitsDone() const { return _firstHitsDone >= _film.pixels(); }
     bool renderSamples();
+    void expose(float* rgba) const;
     uint32_t batchPaths() const { return _internals.batchPaths ? _internals.batchPaths : _batch.paths(); }
     uint32_t samplePaths() const;
     void count(uint32_t paths, double seconds);

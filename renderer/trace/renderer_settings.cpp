@@ -24,6 +24,7 @@ bool samePicture(const Settings& a, const Settings& b) {
     c.splatMode = b.splatMode; // splats are no part of the samples
     c.splatAntialiasing = b.splatAntialiasing;
     c.splatColors = b.splatColors;
+    c.exposureCompensation = b.exposureCompensation; // nor is what they are multiplied by
     return c == b;
 }
 

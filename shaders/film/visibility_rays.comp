@@ -10,6 +10,6 @@ void main() {
     if (i >= push.count) return;
     const uint pixel = push.first + i;
     const vec2 film = vec2(pixel % trace.width, pixel / trace.width) + 0.5;
-    RayRef(trace.rays[0]).v[i] = cameraRay(CameraRef(trace.camera).v, film, uvec2(trace.width, trace.height));
+    RayRef(trace.rays[0]).v[i] = cameraRay(CameraRef(trace.camera), film, uvec2(trace.width, trace.height));
     SlotRef(trace.raySlots[0]).v[i] = pixel;
 }

@@ -17,7 +17,9 @@ struct TileWork {
 HIPR_CONST uint TILE_SAVES_OLD = 1u; // the mean on display goes to TraceRecord::oldPicture before sample 0 replaces it
 HIPR_CONST uint TILE_KEEPS_OLD = 2u; // the mean on display is in TraceRecord::oldPicture already
 
-// Pinhole or orthographic, from matrices. The ray through NDC (x, y) has
+HIPR_CONST uint MAX_CLIP_PLANES = 8u;
+
+// Perspective or orthographic, from matrices. The ray through NDC (x, y) has
 //   direction = normalize(direction + x * directionX + y * directionY),
 //   origin    = origin + x * originX + y * originY   (the axes are 0 for a pinhole),
 // which is exact for every projective matrix and, unlike unprojecting two points, keeps its precision far from the
@@ -34,6 +36,11 @@ struct CameraRecord {
     vec3 directionX;
     vec3 directionY;
     vec3 forward;            // gradient of the view-space depth: the view axis, of unit length unless the view scales
+    vec3 lensX, lensY;       // radii of the aperture; 0 for a pinhole. Rays of one point of the film meet at focusDepth
+    float focusDepth;
+    uint lensBlades;         // 0: a disk
+    uint clipPlaneCount;
+    vec4 clipPlanes[MAX_CLIP_PLANES]; // seen is dot(xyz, point - origin) + w >= 0
 };
 
 // The first hit of the ray through the pixel centre; every "first hit" AOV is resolved from it.

@@ -34,6 +34,6 @@ void main() {
     const vec2 film = vec2(pixel) + 0.5 + sampleFilter(trace.pixelFilter, trace.filterWidth, u.xy);
     PathRef(trace.paths).v[slot] = path;
     PathSeenRef(trace.pathSeen).v[slot].look = SEEN_NOTHING;
-    RayRef(trace.rays[0]).v[slot] = cameraRay(CameraRef(trace.camera).v, film, uvec2(trace.width, trace.height));
+    RayRef(trace.rays[0]).v[slot] = lensRay(CameraRef(trace.camera), film, uvec2(trace.width, trace.height), u.zw);
     SlotRef(trace.raySlots[0]).v[slot] = slot;
 }

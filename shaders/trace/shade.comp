@@ -104,7 +104,7 @@ bool keepsSeen(TraceRecord trace, Path path) {
 }
 
 Ray rayThroughCentre(TraceRecord trace, Path path) {
-    return cameraRay(CameraRef(trace.camera).v, vec2(path.pixel) + 0.5, uvec2(trace.width, trace.height));
+    return cameraRay(CameraRef(trace.camera), vec2(path.pixel) + 0.5, uvec2(trace.width, trace.height));
 }
 
 // The sample lies somewhere around the pixel's centre: what shows there is the surface, continued as a plane. Where that

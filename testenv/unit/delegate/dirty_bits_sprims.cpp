@@ -54,6 +54,12 @@ void conform(TestScene::Prim& prim, bool make) {
     prim.params[HdCameraTokens->windowPolicy] = VtValue(make ? CameraUtilCrop : CameraUtilFit);
 }
 
+void openLens(TestScene::Prim& prim, bool make) {
+    prim.params[TfToken("focalLength")] = VtValue(5.f);
+    prim.params[TfToken("focusDistance")] = VtValue(8.f);
+    prim.params[TfToken("fStop")] = VtValue(make ? 2.8f : 0.f);
+}
+
 /// An input of a computation, and what UsdImaging marks with it on the mesh that gets its values.
 Apply computeElsewhere(HdDirtyBits ofMesh) {
     return [=](World& world, bool make) {
@@ -141,17 +147,14 @@ Section cameraSection() {
             {"HdCamera::DirtyWindowPolicy", "the policy, by Hydra",
              "the window is cropped where the aspects differ", view(HdCamera::DirtyWindowPolicy, conform),
              camera},
-            {"HdCamera::DirtyClipPlanes",
-             "the planes, by Hydra; they have no effect, which is said once",
-             "a clipping plane is added",
+            {"HdCamera::DirtyClipPlanes", "the planes, by Hydra", "a clipping plane is added",
              view(HdCamera::DirtyClipPlanes,
                   param("clipPlanes", std::vector<GfVec4d>{{0, 0, 1, 0}}, std::vector<GfVec4d>())),
-             {}},
-            {"HdCamera::DirtyParams",
-             "fStop and exposure, which have no effect, as is said once",
-             "the lens is opened",
-             view(HdCamera::DirtyParams, param("fStop", 2.8f, 0.f)),
-             {}},
+             camera},
+            {"HdCamera::DirtyParams", "lens, exposure, and whether the shutter opens", "the lens is opened",
+             view(HdCamera::DirtyParams, openLens), camera},
+            {"HdCamera::DirtyParams", "the same; no sample is taken again", "the exposure is longer",
+             view(HdCamera::DirtyParams, param("exposure", 1.f, 0.f)), camera},
             {"HdCamera::AllDirty", "everything; only what differs is a change", "the camera moves",
              view(HdCamera::AllDirty, param("worldToViewMatrix", seenFrom(12), seenFrom(10))), camera},
             unread("HdCamera::Clean", "nothing; Hydra refuses to mark it", [](World&, bool) {}),

@@ -31,5 +31,12 @@ TEST(AovLayers, OthersAreColoursOrValues) {
                 ElementsAre("primvars.st.R", "primvars.st.G", "primvars.st.B"));
 }
 
+TEST(AovLayers, LayersMayHaveOtherNames) {
+    EXPECT_THAT(aovChannelNames("color", 4, false, "beauty"),
+                ElementsAre("beauty.R", "beauty.G", "beauty.B", "beauty.A"));
+    EXPECT_THAT(aovChannelNames("normal", 3, false, "my:n"), ElementsAre("my.n.X", "my.n.Y", "my.n.Z"));
+    EXPECT_THAT(aovChannelNames("albedo", 3, false, "color"), ElementsAre("R", "G", "B"));
+}
+
 } // namespace
 } // namespace hipr::record

@@ -75,7 +75,7 @@ TEST(Options, EmptyPurposesShowDefaultAlone) {
 
 TEST(Options, UsageErrorsNameTheirCause) {
     EXPECT_THAT(usageError({"-o", "a.png"}), HasSubstr("no scene"));
-    EXPECT_THAT(usageError({"a.usda"}), HasSubstr("no output"));
+    EXPECT_TRUE(parse({"a.usda"}).asksForProducts());
     EXPECT_THAT(usageError({"a.usda", "-o", "a.tga"}), HasSubstr("a.tga"));
     EXPECT_THAT(usageError({"a.usda", "-o", "a.png", "--aovs", "depth"}), HasSubstr("color"));
     EXPECT_THAT(usageError({"a.usda", "-o", "a.png", "--frames", "1:3"}), HasSubstr("####"));
