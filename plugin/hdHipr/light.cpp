@@ -121,6 +121,22 @@ void HdHiprLight::syncParams(HdSceneDelegate* delegate) {
     if (_desc.kind == hipr::LightKind::Dome || _desc.kind == hipr::LightKind::Rect) {
         _desc.texture = assetPath(lightParam(delegate, GetId(), TfToken("texture:file")));
     }
+    _desc.shaping = readShaping(delegate);
+}
+
+/// The cone of a light without ShapingAPI is the whole sphere; that of one with it is 90 degrees by default,
+/// which Hydra tells.
+hipr::LightShaping HdHiprLight::readShaping(HdSceneDelegate* delegate) const {
+    const Params params{delegate, GetId()};
+    hipr::LightShaping shaping;
+    shaping.focus = params.get("shaping:focus", 0.f);
+    shaping.focusTint = toGlm(params.get("shaping:focusTint", GfVec3f(0.f)));
+    shaping.coneAngle = params.get("shaping:cone:angle", 180.f);
+    shaping.coneSoftness = params.get("shaping:cone:softness", 0.f);
+    shaping.iesFile = assetPath(lightParam(delegate, GetId(), TfToken("shaping:ies:file")));
+    shaping.iesAngleScale = params.get("shaping:ies:angleScale", 0.f);
+    shaping.iesNormalize = params.get("shaping:ies:normalize", false);
+    return shaping;
 }
 
 void HdHiprLight::reportUnsupported(HdSceneDelegate* delegate) const {
@@ -128,14 +144,8 @@ void HdHiprLight::reportUnsupported(HdSceneDelegate* delegate) const {
     const auto ignored = [&](const char* what) {
         warnOnce(GetId().GetString(), std::string(what) + " is not supported and has no effect");
     };
-    if (params.get("shaping:focus", 0.f) != 0.f) {
-        ignored("light shaping (shaping:focus)");
-    }
-    if (params.get("shaping:cone:angle", 90.f) < 90.f) {
-        ignored("light shaping (shaping:cone:angle)");
-    }
-    if (!assetPath(lightParam(delegate, GetId(), TfToken("shaping:ies:file"))).empty()) {
-        ignored("an IES profile (shaping:ies:file)");
+    if (_desc.kind == hipr::LightKind::Dome && !_desc.shaping.iesFile.empty()) {
+        ignored("an IES profile on a dome light (shaping:ies:file)");
     }
     if (!params.get("shadow:enable", true)) {
         ignored("switching shadows off (shadow:enable)");

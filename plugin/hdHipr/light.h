@@ -21,6 +21,7 @@ public:
 
 private:
     void syncParams(HdSceneDelegate* delegate);
+    hipr::LightShaping readShaping(HdSceneDelegate* delegate) const;
     void reportUnsupported(HdSceneDelegate* delegate) const;
     void send(HdSceneDelegate* delegate, HdHiprRenderParam& param);
     std::vector<GfMatrix4d> instanceTransforms(HdSceneDelegate* delegate) const;

@@ -2,6 +2,7 @@
 /// Lights in UsdLux units: intensity in nits, exposure in stops, lengths in object units.
 #pragma once
 
+#include <string>
 #include <tuple>
 
 #include "renderer/api/types.h"
@@ -10,29 +11,49 @@ namespace hipr {
 
 enum class LightKind : uint32_t { Dome, Distant, Rect, Sphere, Disk, Cylinder };
 
+/// How a light's radiance depends on the direction it leaves in (UsdLuxShapingAPI). Angles are from the
+/// light's axis, local -Z, in world space. Lights without an axis, domes, ignore it.
+struct LightShaping {
+    float focus = 0.f;        ///< exponent of the cosine; 0 and below: none
+    glm::vec3 focusTint{0.f}; ///< what focus leaves of the light at 90 degrees
+    float coneAngle = 180.f;  ///< degrees; nothing is sent beyond, 180 and above: everywhere
+    float coneSoftness = 0.f; ///< share of the cone over which the light fades out, 0..1
+    std::string iesFile;      ///< an LM-63 profile; its vertical angle 0 is the axis. May be empty
+    float iesAngleScale =
+        0.f; ///< stretches the profile's vertical angles from 0 (above 0) or 180 (below 0) degrees
+    bool iesNormalize =
+        false; ///< divide the profile by its mean over the sphere (or hemisphere) it is given for
+    auto members() const {
+        return std::tie(focus, focusTint, coneAngle, coneSoftness, iesFile, iesAngleScale, iesNormalize);
+    }
+    bool operator==(const LightShaping& o) const { return members() == o.members(); }
+};
+
 /// A UsdLux light. Rect and disk emit along local -Z; the cylinder's axis is local X; the distant light
-/// shines along local -Z; the dome maps latitude-longitude with local +Y up, image centre toward local +Z... see
-/// shaders/light/environment.glsl for the exact mapping.
+/// shines along local -Z; the dome maps latitude-longitude with local +Y up, image centre toward local +Z...
+/// see shaders/light/environment.glsl for the exact mapping.
 struct LightDesc {
     std::string name;
     LightKind kind = LightKind::Sphere;
-    glm::dmat4 transform{1.0};       ///< light to world
+    glm::dmat4 transform{1.0}; ///< light to world
     float intensity = 1.f;
     float exposure = 0.f;
     glm::vec3 color{1.f};
     bool enableColorTemperature = false;
-    float colorTemperature = 6500.f; ///< kelvin, 1000..10000
-    bool normalize = false;          ///< divide by the world-space area (or solid angle) of the light
-    float radius = 0.5f;             ///< sphere, disk, cylinder
-    float width = 1.f, height = 1.f; ///< rect
-    float length = 1.f;              ///< cylinder
-    float angle = 0.53f;             ///< distant: full angle in degrees
+    float colorTemperature = 6500.f;     ///< kelvin, 1000..10000
+    bool normalize = false;              ///< divide by the world-space area (or solid angle) of the light
+    float radius = 0.5f;                 ///< sphere, disk, cylinder
+    float width = 1.f, height = 1.f;     ///< rect
+    float length = 1.f;                  ///< cylinder
+    float angle = 0.53f;                 ///< distant: full angle in degrees
     float diffuse = 1.f, specular = 1.f; ///< multipliers
-    bool visible = true;             ///< false: the light is off
-    std::string texture;             ///< dome: latitude-longitude image; rect: image on the emitter. May be empty
+    bool visible = true;                 ///< false: the light is off
+    std::string texture; ///< dome: latitude-longitude image; rect: image on the emitter. May be empty
+    LightShaping shaping;
     auto members() const {
-        return std::tie(name, kind, transform, intensity, exposure, color, enableColorTemperature, colorTemperature,
-                        normalize, radius, width, height, length, angle, diffuse, specular, visible, texture);
+        return std::tie(name, kind, transform, intensity, exposure, color, enableColorTemperature,
+                        colorTemperature, normalize, radius, width, height, length, angle, diffuse, specular,
+                        visible, texture, shaping);
     }
     bool operator==(const LightDesc& o) const { return members() == o.members(); }
 };

@@ -183,6 +183,10 @@ void dumpLight(SceneDump& dump, const LightDesc& light, bool emits) {
     out.fact("angle", light.angle);
     out.fact("diffuse", light.diffuse, "specular", light.specular);
     out.fact("texture", light.texture);
+    const LightShaping& shaping = light.shaping;
+    out.fact("focus", shaping.focus, "tint", shaping.focusTint);
+    out.fact("cone", shaping.coneAngle, "softness", shaping.coneSoftness);
+    out.fact("ies", shaping.iesFile, "angleScale", shaping.iesAngleScale, "normalize", shaping.iesNormalize);
     out.fact("visible", light.visible);
     out.fact("emits", emits);
 }

@@ -84,10 +84,12 @@ bool positiveSize(const LightDesc& desc) {
 }
 
 bool finiteNumbers(const LightDesc& desc) {
-    const float all[] = {desc.intensity, desc.exposure,         desc.color.x, desc.color.y,
-                         desc.color.z,   desc.colorTemperature, desc.radius,  desc.width,
-                         desc.height,    desc.length,           desc.angle,   desc.diffuse,
-                         desc.specular};
+    const LightShaping& s = desc.shaping;
+    const float all[] = {
+        desc.intensity, desc.exposure,  desc.color.x,  desc.color.y,  desc.color.z,  desc.colorTemperature,
+        desc.radius,    desc.width,     desc.height,   desc.length,   desc.angle,    desc.diffuse,
+        desc.specular,  s.focus,        s.focusTint.x, s.focusTint.y, s.focusTint.z, s.coneAngle,
+        s.coneSoftness, s.iesAngleScale};
     bool finite = isFinite(desc.transform);
     for (const float v : all)
         finite = finite && std::isfinite(v);

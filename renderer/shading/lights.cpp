@@ -9,6 +9,7 @@
 #include "renderer/shading/dome.h"
 #include "renderer/shading/light_choice.h"
 #include "renderer/shading/light_shape.h"
+#include "renderer/shading/light_shaping.h"
 
 namespace hipr {
 
@@ -19,6 +20,7 @@ struct LightTable::Impl {
         std::string name;
         LightRecord record;
         std::optional<uint32_t> texture;
+        LightShaping shaping;
     };
     /// What the table knows of a texture's pixels.
     struct Picture {
@@ -27,25 +29,28 @@ struct LightTable::Impl {
         Buffer table;
     };
 
-    Impl(Device& device, TextureStore& textures) : device(device), textures(textures) {}
+    Impl(Device& device, TextureStore& textures)
+        : device(device), textures(textures), profiles(device, textures.assets()) {}
 
     Device& device;
     TextureStore& textures;
+    ProfileStore profiles;
     std::map<LightId, Light> lights; ///< those that emit, as far as their description tells
     std::map<uint32_t, Picture> pictures;
     bool changed = true;
     uint32_t textureVersion = 0;
     double sceneRadius = -1.0;
     uint32_t areaLights = 0, infiniteLights = 0;
-    Buffer records, cumulative;
+    Buffer records, cumulative, shapings;
 
     void forget(LightId id);
     const Picture& picture(uint32_t texture);
     void dropPictures();
     std::vector<Light*> inOrder();
     bool bindTexture(Light& light, LightRecord& record, glm::vec3& mean);
+    double shape(const Light& light, LightRecord& record, std::vector<gpu::ShapingRecord>& table);
     void rebuild();
-    void upload(const std::vector<LightRecord>& table, const std::vector<double>& chances);
+    void upload(std::vector<LightRecord>& table, const std::vector<double>& chances);
 };
 
 void LightTable::Impl::forget(LightId id) {
@@ -103,8 +108,22 @@ bool LightTable::Impl::bindTexture(Light& light, LightRecord& record, glm::vec3&
     return !known.dome.values.empty();
 }
 
+/// Adds the light's shaping to the table; `record` refers to it by its place there, counted from 1, until the
+/// table is on the device. Returns the share of the light's power that is left.
+double LightTable::Impl::shape(const Light& light, LightRecord& record,
+                               std::vector<gpu::ShapingRecord>& table) {
+    if (light.record.kind == gpu::LIGHT_DOME || !isShaped(light.shaping)) return 1.0;
+    const std::string& file = light.shaping.iesFile;
+    const ProfileStore::Entry* profile = file.empty() ? nullptr : profiles.find(file, light.name);
+    table.push_back(describeShaping(light.shaping, profile));
+    record.shaping = table.size();
+    const bool flat = record.kind == gpu::LIGHT_RECT || record.kind == gpu::LIGHT_DISK;
+    return shapedShare(table.back(), profile, flat);
+}
+
 void LightTable::Impl::rebuild() {
     std::vector<LightRecord> table;
+    std::vector<gpu::ShapingRecord> shapingTable;
     std::vector<double> powers;
     areaLights = infiniteLights = 0;
     const std::vector<Light*> order = inOrder();
@@ -115,19 +134,25 @@ void LightTable::Impl::rebuild() {
             glm::vec3 mean(1.f);
             LightRecord record = light->record;
             if (isInfinite != infinite || !bindTexture(*light, record, mean)) continue;
+            const double share = shape(*light, record, shapingTable);
+            if (!(share > 0.0)) continue;
             table.push_back(record);
-            powers.push_back(lightPower(record, mean, sceneRadius));
+            powers.push_back(share * lightPower(record, mean, sceneRadius));
             ++(infinite ? infiniteLights : areaLights);
         }
+    profiles.dropUnused();
+    shapings = device.createFrom(shapingTable.data(), shapingTable.size(), "light tables");
+    for (LightRecord& record : table)
+        if (record.shaping)
+            record.shaping = shapings.address() + (record.shaping - 1) * sizeof(gpu::ShapingRecord);
     upload(table, lightChances(powers));
 }
 
-void LightTable::Impl::upload(const std::vector<LightRecord>& table, const std::vector<double>& chances) {
-    std::vector<LightRecord> out = table;
-    for (size_t i = 0; i < out.size(); ++i)
-        out[i].selectPdf = float(chances[i]);
+void LightTable::Impl::upload(std::vector<LightRecord>& table, const std::vector<double>& chances) {
+    for (size_t i = 0; i < table.size(); ++i)
+        table[i].selectPdf = float(chances[i]);
     const std::vector<float> sums = cumulativeChances(chances);
-    records = device.createFrom(out.data(), out.size(), "light tables");
+    records = device.createFrom(table.data(), table.size(), "light tables");
     cumulative = device.createFrom(sums.data(), sums.size(), "light tables");
 }
 
@@ -138,6 +163,7 @@ LightTable::~LightTable() = default;
 void LightTable::set(LightId id, const LightDesc& desc) {
     Impl::Light light;
     light.name = desc.name;
+    light.shaping = desc.shaping;
     std::string problem;
     const bool emits = describeLight(desc, light.record, problem);
     if (!problem.empty() && _impl->device.messages())

@@ -192,6 +192,10 @@ uint32_t TextureStore::version() const {
     return _impl->version;
 }
 
+const AssetReader& TextureStore::assets() const {
+    return _impl->assets;
+}
+
 void TextureStore::describe(gpu::SceneRecord& scene) const {
     scene.textures = _impl->records.address();
 }

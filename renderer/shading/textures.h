@@ -68,6 +68,9 @@ public:
     const Image* image(uint32_t texture) const;
     void releasePixels(uint32_t texture);
 
+    /// What reads files.
+    const AssetReader& assets() const;
+
     /// Fills SceneRecord::textures.
     void describe(gpu::SceneRecord& scene) const;
 

@@ -20,7 +20,7 @@ vec3 lightsAlongRay(SceneRecord scene, Ray ray, float tHit, bool cameraRay, floa
         LightPoint hit;
         if (!meetLight(light, ray.origin, ray.direction, hit) || hit.t <= ray.tMin || hit.t >= tHit) continue;
         float weight = hitWeight(light, cameraRay ? -1.0 : bsdfPdf, hit.pdf);
-        sum += weight * shapeRadiance(scene, light, hit.st);
+        sum += weight * shapeRadiance(scene, light, hit.st, ray.direction);
     }
     return sum;
 }
@@ -38,7 +38,7 @@ vec3 environmentRadiance(SceneRecord scene, vec3 direction, bool cameraRay, floa
         if (light.kind == LIGHT_DISTANT) {
             vec3 off = direction - distantAxis(light); // |off|^2 / 2 = 1 - cosine, without cancellation
             bool inside = dot(off, off) <= light.area / PI && light.area > 0.0;
-            if (inside && !cameraRay) radiance = light.radiance, pdf = 1.0 / light.area;
+            if (inside && !cameraRay) radiance = light.radiance * shapingFactor(light, direction), pdf = 1.0 / light.area;
         } else if (domes) {
             vec2 st = domeCoordinates(mat3(light.worldToLight) * direction);
             radiance = domeRadiance(scene, light, st);

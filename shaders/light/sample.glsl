@@ -2,6 +2,7 @@
 #ifndef HIPR_LIGHT_SAMPLE_GLSL
 #define HIPR_LIGHT_SAMPLE_GLSL
 #include "light/environment.glsl"
+#include "light/shaping.glsl"
 #include "light/shapes.glsl"
 
 struct LightSample {
@@ -32,9 +33,11 @@ float powerHeuristic(float pdf, float other) {
 // Weight of a light sample against finding the same direction by sampling the BSDF with density `bsdfPdf`.
 float lightMisWeight(LightSample ls, float bsdfPdf) { return ls.exclusive ? 1.0 : powerHeuristic(ls.pdf, bsdfPdf); }
 
-vec3 shapeRadiance(SceneRecord scene, LightRecord light, vec2 st) {
-    if (light.texture == NO_INDEX) return light.radiance;
-    return light.radiance * max(sampleTexture(TextureRef(scene.textures).v[light.texture], st).rgb, 0.0);
+// What an area light sends from the point `st` in the direction -wi.
+vec3 shapeRadiance(SceneRecord scene, LightRecord light, vec2 st, vec3 wi) {
+    vec3 radiance = light.radiance * shapingFactor(light, wi);
+    if (light.texture == NO_INDEX) return radiance;
+    return radiance * max(sampleTexture(TextureRef(scene.textures).v[light.texture], st).rgb, 0.0);
 }
 
 // The light for u in [0, 1), in proportion to LightRecord::selectPdf: the first whose sum of chances is above u.
@@ -53,10 +56,10 @@ uint chooseLight(SceneRecord scene, float u) {
 
 bool sampleDistant(LightRecord light, vec2 u, inout LightSample ls) {
     vec3 axis = distantAxis(light);
-    ls.radiance = light.radiance;
     float x = u.x * light.area / (2.0 * PI); // 1 - cosine
     float sine = sqrt(max(0.0, x * (2.0 - x))), phi = 2.0 * PI * u.y;
     ls.wi = frameAround(axis) * vec3(sine * cos(phi), sine * sin(phi), 1.0 - x);
+    ls.radiance = light.radiance * shapingFactor(light, ls.wi);
     ls.pdf = light.area > 0.0 ? 1.0 / light.area : 1.0;
     return true;
 }
@@ -93,7 +96,7 @@ bool sampleLight(SceneRecord scene, vec3 p, vec4 u, out LightSample ls) {
         seen = sampleShape(light, p, u.yz, ls.wi, point);
         ls.distance = point.t;
         ls.pdf = point.pdf;
-        ls.radiance = shapeRadiance(scene, light, point.st);
+        ls.radiance = shapeRadiance(scene, light, point.st, ls.wi);
     }
     ls.pdf *= light.selectPdf;
     return seen && any(greaterThan(ls.radiance, vec3(0.0)));

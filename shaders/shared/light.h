@@ -11,6 +11,20 @@ HIPR_CONST uint LIGHT_SPHERE = 3u;
 HIPR_CONST uint LIGHT_DISK = 4u;
 HIPR_CONST uint LIGHT_CYLINDER = 5u;
 
+// What a light's radiance is multiplied by, by the direction it leaves in: see shaders/light/shaping.glsl.
+struct ShapingRecord {
+    vec3 focusTint;
+    float focus;             // 0: none
+    float coneAngle;         // radians, PI and more: none
+    float coneStart;         // where it begins to fade
+    float iesAngleScale;
+    float iesFactor;
+    uint64_t profile;        // float[profileRows * profileColumns], 0: none. Rows from angle 0 to PI off the axis,
+                             // columns from 0 to 2 PI around it, both ends included; one column: the same all around
+    uint profileRows;
+    uint profileColumns;
+};
+
 // An emitter: radiance on a shape. Emitters are ghosts: rays that cross one collect its emission and go on, so
 // emitters neither block nor shadow each other, and NEE needs no light-light occlusion.
 struct LightRecord {
@@ -28,6 +42,7 @@ struct LightRecord {
     uint64_t distribution;   // dome: piecewise-constant sampling table, see shaders/light/environment.glsl
     uint distributionWidth;
     uint distributionHeight;
+    uint64_t shaping;        // ShapingRecord, 0: none
 };
 
 HIPR_SHARED_END

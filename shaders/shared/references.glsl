@@ -32,4 +32,5 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Mat
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer InputNodeRef { InputNode v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer TextureRef { TextureRecord v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer LightRef { LightRecord v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer ShapingRef { ShapingRecord v; };
 #endif

@@ -62,6 +62,31 @@ uniform token[] xformOpOrder = ["xformOp:translate"])")},
     };
 }
 
+Rows shaping() {
+    const std::string profile = "asset shaping:ies:file = @../../scenes/profiles/spot.ies@";
+    return {
+        {"LightRectFocus", in(lights + "Rect", "float shaping:focus = 12")},
+        {"LightRectFocusTint", in(lights + "Rect", "color3f shaping:focusTint = (1, 0, 0)"),
+         in(lights + "Rect", "float shaping:focus = 12")},
+        {"LightRectCone", in(lights + "Rect", "float shaping:cone:angle = 20")},
+        {"LightRectConeByItsNewName", in(lights + "Rect", "float inputs:shaping:cone:angle = 20")},
+        {"LightRectConeSoftness", in(lights + "Rect", "float shaping:cone:softness = 1"),
+         in(lights + "Rect", "float shaping:cone:angle = 20")},
+        {"LightRectConeWideOpen", in(lights + "Rect", "float shaping:cone:angle = 180"), {}, false},
+        {"LightRectProfile", in(lights + "Rect", profile)},
+        {"LightRectProfileGone", in(lights + "Rect", "asset shaping:ies:file = @@"),
+         in(lights + "Rect", profile)},
+        {"LightRectProfileMissing", in(lights + "Rect", "asset shaping:ies:file = @nowhere.ies@"), {}, false},
+        {"LightRectProfileScale", in(lights + "Rect", "float shaping:ies:angleScale = 0.4"),
+         in(lights + "Rect", profile)},
+        {"LightRectProfileNormalize", in(lights + "Rect", "bool shaping:ies:normalize = true"),
+         in(lights + "Rect", profile)},
+        {"LightDomeShaped", in(lights + "Dome", "float shaping:focus = 12"), {}, false},
+        {"LightDistantCone", in(lights + "Sun", "float shaping:cone:angle = 2"),
+         in(lights + "Sun", "float angle = 30")},
+    };
+}
+
 Rows presence() {
     return {
         {"LightRemovedFirst", removePrim(lights + "Disk")},
@@ -111,8 +136,8 @@ uniform token[] xformOpOrder = ["xformOp:translate"]
 
 Rows lightRows() {
     Rows rows = attributes();
-    const Rows more = presence();
-    rows.insert(rows.end(), more.begin(), more.end());
+    for (const Rows& more : {shaping(), presence()})
+        rows.insert(rows.end(), more.begin(), more.end());
     return rows;
 }
 
