@@ -5,6 +5,7 @@
 
 #include "plugin/hdHipr/aov.h"
 #include "plugin/hdHipr/assets.h"
+#include "plugin/hdHipr/basisCurves.h"
 #include "plugin/hdHipr/camera.h"
 #include "plugin/hdHipr/instancer.h"
 #include "plugin/hdHipr/light.h"
@@ -12,6 +13,7 @@
 #include "plugin/hdHipr/mesh.h"
 #include "plugin/hdHipr/messages.h"
 #include "plugin/hdHipr/particleField.h"
+#include "plugin/hdHipr/points.h"
 #include "plugin/hdHipr/renderBuffer.h"
 #include "plugin/hdHipr/renderParam.h"
 #include "plugin/hdHipr/renderPass.h"
@@ -76,7 +78,8 @@ HdRenderParam* HdHiprRenderDelegate::GetRenderParam() const {
 }
 
 TfTokenVector const& HdHiprRenderDelegate::GetSupportedRprimTypes() const {
-    static const TfTokenVector types = {HdPrimTypeTokens->mesh, particleFieldType()};
+    static const TfTokenVector types = {HdPrimTypeTokens->mesh, HdPrimTypeTokens->basisCurves,
+                                        HdPrimTypeTokens->points, particleFieldType()};
     return types;
 }
 
@@ -97,6 +100,12 @@ HdRprim* HdHiprRenderDelegate::createRprim(TfToken const& type, SdfPath const& i
                                            SdfPath const& instancerId) {
     if (type == HdPrimTypeTokens->mesh) {
         return new HdHiprMesh(id, instancerId, *_param);
+    }
+    if (type == HdPrimTypeTokens->basisCurves) {
+        return new HdHiprBasisCurves(id, instancerId, *_param);
+    }
+    if (type == HdPrimTypeTokens->points) {
+        return new HdHiprPoints(id, instancerId, *_param);
     }
     if (type == particleFieldType()) {
         return new HdHiprParticleField(id, instancerId, *_param);

@@ -1,11 +1,10 @@
 #include <algorithm>
-#include <new>
-#include <stdexcept>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
 #include "renderer/geometry/cage.h"
+#include "renderer/geometry/finish.h"
 #include "renderer/geometry/normals.h"
 #include "renderer/geometry/primvars.h"
 #include "renderer/geometry/subdivide.h"
@@ -26,28 +25,6 @@ struct Bounds {
         max = glm::max(max, other.max);
     }
 };
-
-/// Bounds of the vertices that triangles use; authored points may hold unused ones anywhere.
-void setBounds(TriangleMesh& mesh) {
-    if (mesh.triangles.empty()) return;
-    const auto addRange = [&](const auto& range, Bounds bounds) {
-        for (size_t t = range.begin(); t < range.end(); ++t) {
-            for (int k = 0; k < 3; ++k) {
-                const glm::vec3& p = mesh.positions[mesh.triangles[t][k]];
-                bounds.add({p, p});
-            }
-        }
-        return bounds;
-    };
-    const auto join = [](Bounds a, const Bounds& b) {
-        a.add(b);
-        return a;
-    };
-    const tbb::blocked_range<size_t> all(0, mesh.triangles.size(), 16384);
-    const Bounds bounds = tbb::parallel_reduce(all, Bounds{}, addRange, join);
-    mesh.boundsMin = bounds.min;
-    mesh.boundsMax = bounds.max;
-}
 
 /// Points for TriangleMesh::positions: the authored ones, with those that no face may use made harmless.
 std::vector<glm::vec3> finitePoints(const std::vector<glm::vec3>& points) {
@@ -221,23 +198,29 @@ bool keepsTriangles(const TriangleMesh& old, const MeshDesc& desc) {
            std::all_of(desc.points.begin(), desc.points.end(), isFinite) && cutAlike(old, desc);
 }
 
-/// The renderer keeps going when one mesh is too large for the machine.
-template <typename Make>
-std::shared_ptr<const TriangleMesh> orEmptyMesh(const std::string& name, const MessageSink& messages,
-                                                const Make& make) {
-    try {
-        return make();
-    } catch (const std::bad_alloc&) {
-        if (messages) messages(Severity::Error, name, "mesh dropped: out of memory");
-    } catch (const std::length_error&) {
-        if (messages) messages(Severity::Error, name, "mesh dropped: too large");
-    }
-    auto empty = std::make_shared<TriangleMesh>();
-    empty->name = name;
-    return empty;
+} // namespace
+
+void setBounds(TriangleMesh& mesh) {
+    if (mesh.triangles.empty()) return;
+    const auto addRange = [&](const auto& range, Bounds bounds) {
+        for (size_t t = range.begin(); t < range.end(); ++t) {
+            for (int k = 0; k < 3; ++k) {
+                const glm::vec3& p = mesh.positions[mesh.triangles[t][k]];
+                bounds.add({p, p});
+            }
+        }
+        return bounds;
+    };
+    const auto join = [](Bounds a, const Bounds& b) {
+        a.add(b);
+        return a;
+    };
+    const tbb::blocked_range<size_t> all(0, mesh.triangles.size(), 16384);
+    const Bounds bounds = tbb::parallel_reduce(all, Bounds{}, addRange, join);
+    mesh.boundsMin = bounds.min;
+    mesh.boundsMax = bounds.max;
 }
 
-} // namespace
 } // namespace geometry
 
 std::shared_ptr<const TriangleMesh> buildTriangleMesh(const MeshDesc& desc, const MessageSink& messages) {

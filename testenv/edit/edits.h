@@ -56,6 +56,7 @@ inline void PrintTo(const Row& row, std::ostream* out) {
 }
 
 Rows meshRows();
+Rows shapeRows(); ///< curves and points
 Rows splatRows();
 Rows primvarRows();
 Rows materialRows();

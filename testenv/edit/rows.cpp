@@ -10,7 +10,7 @@ const Rows& allRows() {
         Rows result;
         std::set<std::string> names;
         for (const auto topic : {meshRows, primvarRows, materialRows, textureRows, lightRows, instanceRows,
-                                 hierarchyRows, timeRows, viewRows, splatRows})
+                                 hierarchyRows, timeRows, viewRows, splatRows, shapeRows})
             for (Row& row : topic()) {
                 if (!names.insert(row.name).second) throw std::logic_error("two rows are called " + row.name);
                 result.push_back(std::move(row));

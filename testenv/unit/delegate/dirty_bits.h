@@ -16,7 +16,22 @@ PXR_NAMESPACE_OPEN_SCOPE
 namespace dirtybits {
 
 /// What a changed element of the scene below is. View: camera, film and settings, which have no id.
-enum class Target { View, Square, Smooth, Computed, Hidden, Many, Nested, Cloud, Clouds, Added, Lamp, Red };
+enum class Target {
+    View,
+    Square,
+    Smooth,
+    Computed,
+    Hidden,
+    Many,
+    Nested,
+    Cloud,
+    Clouds,
+    Strand,
+    Dots,
+    Added,
+    Lamp,
+    Red
+};
 
 /// One element of an expected ChangedSet.
 struct Element {
@@ -75,6 +90,8 @@ struct Section {
 };
 
 Section meshSection();
+Section curvesSection();
+Section pointsSection();
 Section particleFieldSection();
 Section instancerSection();
 Section lightSection();
@@ -93,8 +110,9 @@ struct Absent {
 std::vector<Absent> const& absentTypes();
 
 inline std::vector<Section> allSections() {
-    return {meshSection(),   particleFieldSection(), instancerSection(), lightSection(), materialSection(),
-            cameraSection(), computationSection(),   bufferSection(),    primSection(),  hostSection()};
+    return {meshSection(),        curvesSection(), pointsSection(),   particleFieldSection(),
+            instancerSection(),   lightSection(),  materialSection(), cameraSection(),
+            computationSection(), bufferSection(), primSection(),     hostSection()};
 }
 
 /// docs/dirty_bits.md.

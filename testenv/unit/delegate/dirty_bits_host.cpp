@@ -131,7 +131,7 @@ Section hostSection() {
     const Elements hidden = {{Target::Square, Change::Visibility}};
     Elements allHidden;
     for (Target target : {Target::Square, Target::Smooth, Target::Computed, Target::Many, Target::Nested,
-                          Target::Cloud, Target::Clouds}) {
+                          Target::Cloud, Target::Clouds, Target::Strand, Target::Dots}) {
         allHidden.push_back({target, Change::Visibility});
     }
     return {
@@ -182,8 +182,6 @@ Section hostSection() {
 
 std::vector<Absent> const& absentTypes() {
     static const std::vector<Absent> types = {
-        {"points", {}},
-        {"basisCurves", {}},
         {"volume", {}},
         {"openvdbAsset",
          {"HdField::Clean", "HdField::DirtyTransform", "HdField::DirtyParams", "HdField::AllDirty"}},

@@ -56,6 +56,11 @@ World::World() : _host({"color", "primId"}) {
     addSquare("/inner.square", Target::Nested, "/inner");
     learn(Target::Nested);
 
+    scene().addCurve(SdfPath("/strand"), grey).transform.SetTranslate(GfVec3d(-3, 3, 0));
+    learn(Target::Strand);
+    scene().addPoints(SdfPath("/dots"), VtVec3fArray(2, grey)).transform.SetTranslate(GfVec3d(3, -3, 0));
+    learn(Target::Dots);
+
     _expected = Target::Cloud;
     scene().addSplats(SdfPath("/cloud"), GfVec3f(0.8f, 0.5f, 0.1f)).transform.SetTranslate(GfVec3d(0, 3, 0));
     render();

@@ -147,7 +147,7 @@ TEST(DirtyBits, BecomeWhatTheTableSays) {
 
 TEST(DirtyBits, AreNotLeftOnAPrimThatHasSynced) {
     World world;
-    for (Section const& section : {meshSection(), particleFieldSection()}) {
+    for (Section const& section : {meshSection(), curvesSection(), pointsSection(), particleFieldSection()}) {
         for (Row const& row : section.rows) {
             row.apply(world, true);
             world.render();
@@ -156,7 +156,7 @@ TEST(DirtyBits, AreNotLeftOnAPrimThatHasSynced) {
         }
     }
     for (const char* path :
-         {"/square", "/smooth", "/computed", "/many.square", "/inner.square", "/cloud", "/clouds.cloud"}) {
+         {"/square", "/smooth", "/computed", "/many.square", "/inner.square", "/strand", "/dots", "/cloud", "/clouds.cloud"}) {
         const HdDirtyBits bits = world.tracker().GetRprimDirtyBits(SdfPath(path));
         EXPECT_EQ(HdChangeTracker::StringifyDirtyBits(bits & ~HdChangeTracker::Varying),
                   HdChangeTracker::StringifyDirtyBits(HdChangeTracker::Clean))

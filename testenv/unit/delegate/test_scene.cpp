@@ -57,6 +57,27 @@ TestScene::Prim& TestScene::addSplats(SdfPath const& id, GfVec3f const& color, S
     return prim;
 }
 
+TestScene::Prim& TestScene::addCurve(SdfPath const& id, GfVec3f const& color) {
+    Prim& prim = insertRprim(HdPrimTypeTokens->basisCurves, id, SdfPath());
+    prim.curves = HdBasisCurvesTopology(HdTokens->linear, TfToken(), HdTokens->nonperiodic, VtIntArray{3},
+                                        VtIntArray());
+    prim.primvars[HdTokens->points] = {
+        HdInterpolationVertex, VtValue(VtVec3fArray{{-0.5f, -0.2f, 0}, {0, 0.2f, 0}, {0.5f, -0.2f, 0}})};
+    prim.primvars[HdTokens->widths] = {HdInterpolationConstant, VtValue(VtFloatArray{0.2f})};
+    prim.primvars[HdTokens->displayColor] = {HdInterpolationConstant, VtValue(VtVec3fArray{color})};
+    return prim;
+}
+
+TestScene::Prim& TestScene::addPoints(SdfPath const& id, VtVec3fArray const& colors,
+                                      SdfPath const& instancer) {
+    Prim& prim = insertRprim(HdPrimTypeTokens->points, id, instancer);
+    prim.primvars[HdTokens->points] = {HdInterpolationVertex,
+                                       VtValue(VtVec3fArray{{-0.25f, 0, 0}, {0.25f, 0, 0}})};
+    prim.primvars[HdTokens->widths] = {HdInterpolationVertex, VtValue(VtFloatArray(2, 0.4f))};
+    prim.primvars[HdTokens->displayColor] = {HdInterpolationVertex, VtValue(colors)};
+    return prim;
+}
+
 TestScene::Prim& TestScene::addInstancer(SdfPath const& id, SdfPath const& prototype,
                                          VtVec3fArray const& translations, SdfPath const& parent) {
     Prim& prim = _prims[id];

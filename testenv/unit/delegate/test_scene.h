@@ -7,6 +7,7 @@
 
 #include "plugin/hdHipr/compat.h"
 #include "pxr/base/gf/vec3f.h"
+#include "pxr/imaging/hd/basisCurvesTopology.h"
 #include "pxr/imaging/hd/extComputationContext.h"
 #include "pxr/imaging/hd/tokens.h"
 
@@ -21,6 +22,7 @@ public:
     struct Prim {
         TfToken type;
         HdMeshTopology topology;
+        HdBasisCurvesTopology curves;
         GfMatrix4d transform{1.0};
         bool visible = true, doubleSided = true;
         TfToken renderTag = HdRenderTagTokens->geometry;
@@ -45,6 +47,10 @@ public:
     Prim& addSquare(SdfPath const& id, GfVec3f const& color, SdfPath const& instancer = SdfPath());
     /// Adds a cloud of two round splats of one colour, at x = -0.25 and 0.25.
     Prim& addSplats(SdfPath const& id, GfVec3f const& color, SdfPath const& instancer = SdfPath());
+    /// Adds a bent line of three points in the XY plane, 0.2 wide.
+    Prim& addCurve(SdfPath const& id, GfVec3f const& color);
+    /// Adds two points at x = -0.25 and 0.25, 0.4 wide, each of its colour.
+    Prim& addPoints(SdfPath const& id, VtVec3fArray const& colors, SdfPath const& instancer = SdfPath());
     /// Adds an instancer of `prototype` with a translation per instance.
     Prim& addInstancer(SdfPath const& id, SdfPath const& prototype, VtVec3fArray const& translations,
                        SdfPath const& parent = SdfPath());
@@ -67,6 +73,7 @@ public:
     void remove(SdfPath const& id);
 
     HdMeshTopology GetMeshTopology(SdfPath const& id) override { return prim(id).topology; }
+    HdBasisCurvesTopology GetBasisCurvesTopology(SdfPath const& id) override { return prim(id).curves; }
     PxOsdSubdivTags GetSubdivTags(SdfPath const& id) override { return prim(id).tags; }
     GfMatrix4d GetTransform(SdfPath const& id) override { return prim(id).transform; }
     bool GetVisible(SdfPath const& id) override { return prim(id).visible; }

@@ -1,0 +1,82 @@
+#include "plugin/hdHipr/basisCurves.h"
+
+#include "plugin/hdHipr/messages.h"
+#include "pxr/base/tf/stringUtils.h"
+#include "renderer/api/curves.h"
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+using namespace hdhipr;
+
+namespace {
+
+/// Lines without a width of their own (bounds and axes that stand for models) are this much of their extent.
+constexpr float lineWidth = 1.f / 400;
+
+hipr::CurveBasis basisOf(HdBasisCurvesTopology const& topology) {
+    if (topology.GetCurveType() != HdTokens->cubic) {
+        return hipr::CurveBasis::Linear;
+    }
+    if (TfStringToLower(topology.GetCurveBasis().GetString()) == "bspline") { // versions differ in the token
+        return hipr::CurveBasis::BSpline;
+    }
+    return topology.GetCurveBasis() == HdTokens->catmullRom ? hipr::CurveBasis::CatmullRom
+                                                            : hipr::CurveBasis::Bezier;
+}
+
+hipr::CurveWrap wrapOf(HdBasisCurvesTopology const& topology) {
+    static const TfToken pinned("pinned");
+    if (topology.GetCurveWrap() == HdTokens->periodic) {
+        return hipr::CurveWrap::Periodic;
+    }
+    if (topology.GetCurveWrap() == HdTokens->segmented) {
+        return hipr::CurveWrap::Segments;
+    }
+    return topology.GetCurveWrap() == pinned ? hipr::CurveWrap::Pinned : hipr::CurveWrap::Nonperiodic;
+}
+
+std::vector<int> ints(VtIntArray const& array) {
+    return {array.cdata(), array.cdata() + array.size()};
+}
+
+float extentOf(std::vector<glm::vec3> const& points) {
+    glm::vec3 low(0.f), high(0.f);
+    for (size_t i = 0; i < points.size(); ++i) {
+        low = i ? glm::min(low, points[i]) : points[i];
+        high = i ? glm::max(high, points[i]) : points[i];
+    }
+    return glm::length(high - low);
+}
+
+} // namespace
+
+std::shared_ptr<const hipr::TriangleMesh> HdHiprBasisCurves::readShape(HdSceneDelegate& delegate) {
+    const HdBasisCurvesTopology topology = GetBasisCurvesTopology(&delegate);
+    hipr::CurvesDesc desc;
+    desc.name = GetId().GetString();
+    desc.basis = basisOf(topology);
+    desc.wrap = wrapOf(topology);
+    desc.vertexCounts = ints(topology.GetCurveVertexCounts());
+    desc.pointIndices = ints(topology.GetCurveIndices());
+    desc.hiddenCurves = ints(topology.GetInvisibleCurves());
+    desc.refineLevel = GetDisplayStyle(&delegate).refineLevel;
+    desc.points = toVec3s(delegate.Get(GetId(), HdTokens->points));
+    if (desc.wrap == hipr::CurveWrap::Segments) {
+        desc.width = lineWidth * extentOf(desc.points);
+    }
+    desc.primvars = readPrimvars(delegate, [&](HdInterpolation interpolation) {
+        switch (interpolation) {
+        case HdInterpolationUniform:
+            return desc.vertexCounts.size();
+        case HdInterpolationVertex:
+            return desc.points.size();
+        case HdInterpolationConstant:
+            return size_t(1);
+        default:
+            return hipr::varyingCount(desc);
+        }
+    });
+    return hipr::buildCurves(desc, report);
+}
+
+PXR_NAMESPACE_CLOSE_SCOPE

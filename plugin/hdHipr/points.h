@@ -1,0 +1,28 @@
+/// @file points.h
+/// HdHiprPoints: a set of points, drawn as spheres or, with normals, as disks.
+#pragma once
+
+#include "plugin/hdHipr/shapePrim.h"
+#include "pxr/imaging/hd/points.h"
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+/// One small geometry and an instance of it for each point, so that millions of points need no triangles of
+/// their own.
+class HdHiprPoints final : public hdhipr::ShapePrim<HdPoints> {
+public:
+    using ShapePrim::ShapePrim;
+
+protected:
+    std::shared_ptr<const hipr::TriangleMesh> readShape(HdSceneDelegate& delegate) override;
+    hipr::InstancesDesc instances(HdSceneDelegate& delegate) override;
+    bool shapePlacesInstances() const override { return true; }
+
+private:
+    void place(std::vector<glm::vec3> const& points, std::vector<hipr::Primvar>& primvars);
+
+    std::vector<glm::mat4> _placements;   ///< of the unit shape, in the space of the prim
+    std::vector<hipr::Primvar> _perPoint; ///< one value for each of them
+};
+
+PXR_NAMESPACE_CLOSE_SCOPE

@@ -1,0 +1,158 @@
+/// @file shapePrim.h
+/// What prims have in common whose shape is read as a whole: curves and points.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "plugin/hdHipr/compat.h"
+#include "plugin/hdHipr/instancer.h"
+#include "plugin/hdHipr/primvars.h"
+#include "plugin/hdHipr/renderParam.h"
+#include "plugin/hdHipr/unsupported.h"
+#include "pxr/imaging/hd/tokens.h"
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+namespace hdhipr {
+
+/// An Rprim with one geometry and one object. A change of any part of its shape reads all of it again; a
+/// moved or hidden prim sends transforms or visibility.
+template <class Base> class ShapePrim : public RprimBase<Base> {
+public:
+    ShapePrim(SdfPath const& id, SdfPath const& instancerId, HdHiprRenderParam& param)
+        : RprimBase<Base>(id, instancerId), _geometry(param.newId<hipr::GeometryId>()),
+          _object(param.newId<hipr::ObjectId>()) {}
+
+    HdDirtyBits GetInitialDirtyBitsMask() const final {
+        return HdChangeTracker::InitRepr | objectBits | instanceBits | shapeBits;
+    }
+
+    void Finalize(HdRenderParam* renderParam) final {
+        auto& param = static_cast<HdHiprRenderParam&>(*renderParam);
+        param.removeObject(_object);
+        param.edit().removeGeometry(_geometry);
+        Base::Finalize(renderParam);
+    }
+
+    void Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdDirtyBits* dirtyBits,
+              TfToken const&) final {
+        auto& param = static_cast<HdHiprRenderParam&>(*renderParam);
+        this->syncInstancer(delegate, dirtyBits);
+        const HdDirtyBits bits = *dirtyBits;
+        if (bits & HdChangeTracker::DirtyVisibility) {
+            this->_UpdateVisibility(delegate, dirtyBits);
+        }
+        if (bits & HdChangeTracker::DirtyMaterialId) {
+            this->updateMaterialId(delegate, delegate->GetMaterialId(this->GetId()));
+        }
+        if (bits & shapeBits) {
+            param.edit().setGeometry(_geometry, readShape(*delegate));
+        }
+        if (bits & objectBits) {
+            sendObject(delegate, param);
+        }
+        const HdDirtyBits placing = shapePlacesInstances() ? instanceBits | shapeBits : instanceBits;
+        if (bits & placing) {
+            param.edit().setInstances(_object, instances(*delegate));
+        }
+        // Last: UsdImaging hands out the points once, and asking for samples of them counts.
+        if ((bits & (instanceBits | HdChangeTracker::DirtyPoints)) && param.shutterOpen()) {
+            warnOfMotion(*delegate, this->GetId(), HdTokens->points, this->GetInstancerId());
+        }
+        *dirtyBits = HdChangeTracker::Clean;
+    }
+
+protected:
+    /// Reads all of the shape: Hydra drops what it has handed over.
+    virtual std::shared_ptr<const hipr::TriangleMesh> readShape(HdSceneDelegate& delegate) = 0;
+    /// Where the geometry stands.
+    virtual hipr::InstancesDesc instances(HdSceneDelegate& delegate) {
+        return readInstances(delegate, this->GetId(), this->GetInstancerId());
+    }
+    /// Whether instances() depends on the shape.
+    virtual bool shapePlacesInstances() const { return false; }
+
+    /// All authored primvars but the points. `elements` tells how many values an interpolation has.
+    template <class Elements>
+    std::vector<hipr::Primvar> readPrimvars(HdSceneDelegate& delegate, Elements elements) {
+        HdPrimvarDescriptorVector authored;
+        for (int i = 0; i < HdInterpolationCount; ++i) {
+            const auto some = this->GetPrimvarDescriptors(&delegate, HdInterpolation(i));
+            authored.insert(authored.end(), some.begin(), some.end());
+        }
+        std::vector<hipr::Primvar> primvars;
+        for (HdPrimvarDescriptorVector const& same : byName(authored)) {
+            if (same.front().name == HdTokens->points) {
+                continue;
+            }
+            VtIntArray indices;
+            const VtValue value = this->readPrimvar(&delegate, same.front().name, &indices);
+            const size_t count = !indices.empty()        ? indices.size()
+                                 : value.IsArrayValued() ? value.GetArraySize()
+                                                         : 1;
+            std::vector<bool> fits;
+            for (HdPrimvarDescriptor const& descriptor : same) {
+                fits.push_back(elements(descriptor.interpolation) == count);
+            }
+            HdPrimvarDescriptor const& meant = _descriptorChoice.choose(same, fits, std::nullopt);
+            const std::optional<hipr::Interpolation> interpolation = toInterpolation(meant.interpolation);
+            std::optional<hipr::Primvar> primvar = toPrimvar(meant.name, value);
+            if (!interpolation || !primvar) {
+                continue;
+            }
+            primvar->interpolation = *interpolation;
+            primvar->linear = meant.interpolation == HdInterpolationVarying;
+            primvar->indices.assign(indices.cdata(), indices.cdata() + indices.size());
+            primvars.push_back(std::move(*primvar));
+        }
+        return primvars;
+    }
+
+    /// There is one way to draw these prims.
+    void _InitRepr(TfToken const&, HdDirtyBits*) final {}
+
+    /// So that the host prepares all of the shape.
+    HdDirtyBits _PropagateDirtyBits(HdDirtyBits bits) const final {
+        return bits & shapeBits ? bits | shapeBits : bits;
+    }
+
+    void renderTagChanged(HdSceneDelegate* delegate, HdRenderParam* renderParam) final {
+        if (_synced) {
+            sendObject(delegate, static_cast<HdHiprRenderParam&>(*renderParam));
+        }
+    }
+
+private:
+    static constexpr HdDirtyBits objectBits = HdChangeTracker::DirtyVisibility |
+                                              HdChangeTracker::DirtyMaterialId |
+                                              HdChangeTracker::DirtyPrimID | HdChangeTracker::DirtyRenderTag;
+    static constexpr HdDirtyBits instanceBits = HdChangeTracker::DirtyTransform |
+                                                HdChangeTracker::DirtyInstancer |
+                                                HdChangeTracker::DirtyInstanceIndex;
+    static constexpr HdDirtyBits shapeBits =
+        HdChangeTracker::DirtyTopology | HdChangeTracker::DirtyPoints | HdChangeTracker::DirtyNormals |
+        HdChangeTracker::DirtyWidths | HdChangeTracker::DirtyPrimvar | HdChangeTracker::DirtyDisplayStyle;
+
+    void sendObject(HdSceneDelegate* delegate, HdHiprRenderParam& param) {
+        ObjectState state;
+        state.path = this->GetId();
+        state.renderTag = delegate->GetRenderTag(this->GetId());
+        state.desc.name = this->GetId().GetString();
+        state.desc.geometry = _geometry;
+        state.desc.visible = this->IsVisible();
+        state.desc.primId = this->GetPrimId();
+        state.desc.materials = {param.materialId(this->GetMaterialId())};
+        param.setObject(_object, state);
+        _synced = true;
+    }
+
+    hipr::GeometryId _geometry;
+    hipr::ObjectId _object;
+    DescriptorChoice _descriptorChoice;
+    bool _synced = false;
+};
+
+} // namespace hdhipr
+
+PXR_NAMESPACE_CLOSE_SCOPE
