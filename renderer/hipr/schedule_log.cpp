@@ -68,4 +68,11 @@ void ScheduleLog::batch(const std::vector<gpu::TileWork>& work, uint32_t paths,
     end();
 }
 
+void ScheduleLog::splats(const char* depths) {
+    if (!_file) return;
+    begin("splats");
+    std::fprintf(_file.get(), ", \"depths\": \"%s\"", depths);
+    end();
+}
+
 } // namespace hipr

@@ -9,6 +9,8 @@
 ///   batch    `paths`, `tiles`: [x, y, width, height, firstSample, sampleCount, shown, foreseen]; shown is 0
 ///            where the tile keeps its old picture on display, which these samples did not change; foreseen
 ///            is 1 where the tile had been discovered when its first sample was handed out
+///   splats   have been drawn; `depths` of what hides them: none, earlier (of before the edit, or carried to
+///            the new camera) or current
 #pragma once
 
 #include <chrono>
@@ -28,6 +30,7 @@ public:
     void order(const TileSchedule& schedule);
     /// After TileSchedule::advance().
     void batch(const std::vector<gpu::TileWork>& work, uint32_t paths, const TileSchedule& schedule);
+    void splats(const char* depths);
 
 private:
     struct Close {

@@ -61,6 +61,10 @@ public:
     const SplatTable& splats() const { return _splats; }
     /// Where clouds of splats stand: after commit().
     std::vector<SplatPlacement> splatPlacements() const { return _objects.splats(); }
+    /// Another one than before: splats() or splatPlacements() may be others.
+    uint64_t splatRevision() const { return _objects.splatRevision(); }
+    /// Whether there is anything that paths meet: after commit().
+    bool anythingTraced() const { return !_objects.records().empty(); }
     /// The SceneRecord, once committed.
     VkDeviceAddress address() const { return _record.address(); }
     bool hasNonOpaque() const { return (_hostRecord.flags & gpu::SCENE_HAS_NON_OPAQUE) != 0; }

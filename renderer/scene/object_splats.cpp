@@ -21,9 +21,16 @@ const SplatSet* ObjectTable::shownSplats(Entry& entry, const SplatTable& splats)
     return set && set->cloud->size() > 0 ? set : nullptr;
 }
 
-void ObjectTable::placeSplats(Entry& entry, const SplatSet* shown) {
+/// Does nothing for objects without splats, and for those whose splats are as they were.
+void ObjectTable::placeSplats(Entry& entry, const SplatSet* shown, bool transformsChanged) {
+    const bool same = shown ? !transformsChanged && !entry.boundsPending && entry.splatSet == shown->revision
+                            : entry.splats.empty();
+    if (same) return;
+    ++_splatRevision;
     entry.splats.clear();
+    entry.splatSet = shown ? shown->revision : 0;
     if (!shown) return;
+    entry.boundsPending = false;
     for (const uint32_t source : entry.usable) {
         const bool hasIds = entry.instances && source < entry.instances->instanceIds.size();
         entry.splats.push_back(

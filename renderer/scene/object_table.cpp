@@ -90,6 +90,7 @@ void ObjectTable::removeObject(ObjectId id, ChangedSet& changed) {
     if (found == _entries.end()) return;
     vacate(found->second);
     note(changed, id, found->second, Change::Removed);
+    if (!found->second.splats.empty()) ++_splatRevision;
     _entries.erase(found);
     _order.clear();
 }
@@ -312,7 +313,7 @@ bool ObjectTable::commit(const GeometryTable& geometries, const SplatTable& spla
             uploadPrimvars(entry);
             entry.transformsPending = false;
         }
-        placeSplats(entry, set);
+        placeSplats(entry, set, transformsChanged);
         const Placement placement = place(entry, geometry, materials, total, materialIndices);
         if ((transformsChanged && geometry) || !(placement == entry.placed))
             rewritten.push_back({id, &entry});
@@ -324,7 +325,7 @@ bool ObjectTable::commit(const GeometryTable& geometries, const SplatTable& spla
     _records.resize(total);
     for (auto& [id, entry] : rewritten) {
         writeRecords(id, *entry);
-        entry->boundsPending = true;
+        entry->boundsPending |= entry->placed.count > 0; // placeSplats() has seen to splats
     }
     uploadRecords(rewritten);
     if (materialIndices != _materialIndices) {

@@ -39,6 +39,8 @@ public:
     const std::vector<gpu::InstanceRecord>& records() const { return _records; }
     /// Where clouds of splats stand, in the order of the objects' names; as of the last commit.
     std::vector<SplatPlacement> splats() const;
+    /// Goes up with every commit() after which splats() or the clouds it names are others.
+    uint64_t splatRevision() const { return _splatRevision; }
     /// Where objects that were changed since the last call had been before; for after the edits, before
     /// commit().
     std::vector<WorldBox> takeVacated() { return std::exchange(_vacated, {}); }
@@ -73,6 +75,7 @@ private:
         bool missingReported = false;
         bool fresh = false; ///< added since the last commit: what else is said of it is no change
         std::vector<SplatPlacement> splats; ///< of `usable`, as of the last commit
+        uint32_t splatSet = 0;              ///< SplatSet::revision of what they show
     };
 
     void dumpInstances(SceneDump::Element& out, const Entry& entry) const;
@@ -81,7 +84,7 @@ private:
     void reportMissing(Entry& entry, const char* what);
     const Geometry* shownGeometry(Entry& entry, const GeometryTable& geometries);
     const SplatSet* shownSplats(Entry& entry, const SplatTable& splats);
-    void placeSplats(Entry& entry, const SplatSet* shown);
+    void placeSplats(Entry& entry, const SplatSet* shown, bool transformsChanged);
     Placement place(Entry& entry, const Geometry* geometry, const MaterialTable* materials, uint32_t first,
                     std::vector<uint32_t>& materialIndices);
     /// Ids by the name of the object: hits at equal distance go to the first, and ids tell the history of
@@ -107,6 +110,7 @@ private:
     DeviceTable _recordTable, _materialTable;
     std::vector<WorldBox> _vacated;
     glm::vec3 _boundsMin{0.f}, _boundsMax{0.f};
+    uint64_t _splatRevision = 0;
     bool _nonOpaque = false, _tracedChanged = false;
 };
 

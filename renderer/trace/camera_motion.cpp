@@ -26,15 +26,15 @@ bool RendererImpl::readyToMove(std::chrono::milliseconds patience) {
 
 /// The picture on display stays, but where the new camera sees what it shows; what is least right about it is
 /// refreshed first. `before`: the camera it is of. `regions`: where objects that changed as well were and
-/// are.
-void RendererImpl::moveCamera(const std::optional<CameraDesc>& before, const std::vector<WorldBox>& regions) {
-    if (_settings.mode == "uniform" || !before || !_schedule.anythingShown()) return;
-    if (!readyToMove(std::chrono::milliseconds(0))) return;
+/// are. False: nothing was carried.
+bool RendererImpl::moveCamera(const std::optional<CameraDesc>& before, const std::vector<WorldBox>& regions) {
+    if (_settings.mode == "uniform" || !before || !_schedule.anythingShown()) return false;
+    if (!readyToMove(std::chrono::milliseconds(0))) return false;
     const auto from = cameraRecord(*before), to = cameraRecord(*_scene.camera());
-    if (!from || !to) return;
+    if (!from || !to) return false;
     const auto start = Clock::now();
     std::vector<gpu::CarriedStrip> strips;
-    if (!_film.carry(*_machine->reprojection, _schedule, *from, *to, strips)) return;
+    if (!_film.carry(*_machine->reprojection, _schedule, *from, *to, strips)) return false;
     Staleness stale = staleness(_schedule.grid(), strips);
     std::vector<float>& errors = stale.errors;
     const float worst = *std::max_element(errors.begin(), errors.end());
@@ -46,6 +46,7 @@ void RendererImpl::moveCamera(const std::optional<CameraDesc>& before, const std
     std::lock_guard<std::mutex> lock(_progressMutex);
     _progress.tilesDiscovered = _schedule.discoveredTiles();
     _progress.scheduleSeconds += std::chrono::duration<double>(Clock::now() - start).count();
+    return true;
 }
 
 } // namespace hipr

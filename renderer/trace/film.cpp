@@ -93,7 +93,7 @@ bool FilmBuffers::keepDepths(bool keep) {
     if (keep == _keepsDepths) return false;
     _keepsDepths = keep;
     createHits();
-    return keep;
+    return true;
 }
 
 void FilmBuffers::createPictures() {
@@ -121,8 +121,8 @@ bool FilmBuffers::carry(Reprojection& reprojection, const TileSchedule& schedule
                         const gpu::CameraRecord& before, const gpu::CameraRecord& after,
                         std::vector<gpu::CarriedStrip>& strips) {
     if (!_seen) return false;
-    if (!reprojection.carry({_sums, _oldPicture, _carried, _seen, _seenAfter, _lists}, schedule, before,
-                            after, strips))
+    if (!reprojection.carry({_sums, _oldPicture, _carried, _seen, _seenAfter, _lists, depths()}, schedule,
+                            before, after, strips))
         return false;
     _seen.swap(_seenAfter);
     _oldPicture.swap(_carried);
@@ -134,7 +134,7 @@ bool FilmBuffers::keepHits(bool keep) {
     _keepsHits = keep;
     _hasPrevious = false;
     createHits();
-    return keep;
+    return true;
 }
 
 void FilmBuffers::retireHits() {

@@ -31,14 +31,13 @@ public:
     bool wantsFirstHits() const { return !_firstHits.empty() || _keepsHits || _keepsDepths; }
 
     /// Whether first hits are kept as well as shown, those of the scene before the last edit too. Returns
-    /// whether they have to be found anew.
+    /// whether that is new; first hits then have to be found anew, if they are wanted at all.
     bool keepHits(bool keep);
     /// The first hits, which are complete, become those before the edit.
     void retireHits();
     /// Forgets those before the edit: the picture is of another view.
     void dropPreviousHits() { _hasPrevious = false; }
-    /// Whether the depths of first hits are kept, for what is drawn over the picture. Returns whether first
-    /// hits have to be found anew.
+    /// Whether the depths of first hits are kept, which hide what is drawn over the picture. Returns the same.
     bool keepDepths(bool keep);
     /// gpu::TraceRecord::opaqueDepths, or 0.
     VkDeviceAddress depths() const { return _depths ? _depths.address() : 0; }
@@ -49,7 +48,7 @@ public:
     /// From then on, where it was not kept before.
     void keepPictures(bool keep);
     /// Carries what is on display to another camera: see Reprojection::carry(). All of it is in the old
-    /// picture then.
+    /// picture then, and depths() are those of what was carried.
     bool carry(Reprojection& reprojection, const TileSchedule& schedule, const gpu::CameraRecord& before,
                const gpu::CameraRecord& after, std::vector<gpu::CarriedStrip>& strips);
 

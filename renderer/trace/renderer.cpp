@@ -91,10 +91,9 @@ ChangedSet RendererImpl::commit(SceneEdit& edit) {
         _scene.addOccupied(changed, regions);
         if (camera || traced) restart(camera ? Cause::Camera : Cause::Edit);
         if (camera)
-            moveCamera(before, regions);
+            viewSplats(moveCamera(before, regions));
         else if (traced)
             startSearch(changed, regions);
-        if (camera) viewSplats();
         updateSplats();
         return true;
     });
@@ -116,7 +115,7 @@ void RendererImpl::restart(Cause cause) {
     _setupPending = true;
     _restarted = Clock::now();
     _batchesSinceRestart = 0;
-    _firstHitsDone = _film.wantsFirstHits() ? 0 : _film.pixels();
+    findFirstHits(true);
     const char* names[] = {"picture", "edit", "camera", "everything"};
     _log.restart(names[int(cause)], grid);
     std::lock_guard<std::mutex> lock(_progressMutex);
@@ -179,8 +178,7 @@ bool RendererImpl::renderBatch() {
         if (!_edits.ready(std::chrono::milliseconds(50))) return true;
         if (_schedule.everythingShown() && !readyToMove(std::chrono::milliseconds(50))) return true;
         if (_splats.pending() && !_splats.ready(std::chrono::milliseconds(50))) return true;
-        const bool depthsMissing = _edits.wantsFirstHits() || (_splats.pending() && !_splatDepths);
-        if (depthsMissing && !firstHitsDone()) return renderFirstHits();
+        if (depthsMissing() && !firstHitsDone()) return renderFirstHits();
         if (_splats.pending()) return renderSplats();
         if (_edits.searching()) return search();
         const bool sampled = _schedule.samplesDone() >= uint32_t(_settings.samples);
@@ -199,6 +197,14 @@ bool RendererImpl::search() {
     _progress.scoutPaths = _edits.scoutPaths();
     _progress.scheduleSeconds += secondsSince(start);
     return done;
+}
+
+/// Who wants first hits, or what for, has changed, or with `anew` what they are.
+void RendererImpl::findFirstHits(bool anew) {
+    if (!_film.wantsFirstHits())
+        _firstHitsDone = _film.pixels();
+    else if (anew)
+        _firstHitsDone = 0;
 }
 
 bool RendererImpl::renderFirstHits() {

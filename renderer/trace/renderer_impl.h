@@ -53,7 +53,7 @@ private:
     void retireHits(Cause cause);
     void prepareMode();
     bool readyToMove(std::chrono::milliseconds patience);
-    void moveCamera(const std::optional<CameraDesc>& before, const std::vector<WorldBox>& regions);
+    bool moveCamera(const std::optional<CameraDesc>& before, const std::vector<WorldBox>& regions);
     void startSearch(const ChangedSet& changed, const std::vector<WorldBox>& regions);
     uint32_t tileSize() const;
     bool setup();
@@ -61,7 +61,9 @@ private:
     bool search();
     bool renderFirstHits();
     void updateSplats();
-    void viewSplats();
+    void viewSplats(bool carried);
+    bool depthsMissing() const;
+    void findFirstHits(bool anew);
     void awaitSplats();
     bool renderSplats();
     bool complete() const;
@@ -89,7 +91,8 @@ private:
     Clock::time_point _restarted;
     uint32_t _batchesSinceRestart = 0;
     uint64_t _firstHitsDone = 0; ///< pixels
-    bool _splatDepths = false;   ///< first hits of this view have been complete: splats can be drawn
+    bool _splatDepths = false;   ///< the film's depths are of this view, or carried to it
+    uint64_t _splatRevision = 0; ///< of the scene's splats, as given to the layer
     mutable std::mutex _progressMutex;
     Progress _progress;
 };

@@ -60,7 +60,7 @@ ChangedSet RendererImpl::setFilm(const FilmDesc& film) {
         if (film == _film.desc()) return true;
         _film.setDesc(film);
         restart(Cause::Picture);
-        viewSplats();
+        viewSplats(false);
         changed = settingChange();
         return true;
     });
@@ -75,7 +75,8 @@ ChangedSet RendererImpl::setSettings(const Settings& settings) {
         _settings = settings;
         prepareMode();
         _edits.prepare(settings);
-        if (_film.keepHits(EditScheduler::discovers(settings))) _firstHitsDone = 0;
+        const bool discovers = EditScheduler::discovers(settings);
+        if (_film.keepHits(discovers)) findFirstHits(discovers);
         const std::string traversal = _traversalInUse;
         selectTraversal();
         const bool options = _scene.setOptions(

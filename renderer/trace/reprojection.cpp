@@ -63,6 +63,7 @@ void Reprojection::describe(const CarriedPicture& picture, const TileSchedule& s
     _push.seen = picture.seen.address();
     _push.seenAfter = picture.seenAfter.address();
     _push.lists = picture.lists.address();
+    _push.depths = picture.depths;
     _push.strips = _strips.address();
     _push.counts = _counts.address();
     _push.width = grid.width;

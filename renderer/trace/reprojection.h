@@ -25,6 +25,7 @@ struct CarriedPicture {
     const Buffer& seen;       ///< gpu::SeenPoint
     const Buffer& seenAfter;  ///< gpu::SeenPoint, written
     const Buffer& lists;      ///< uint32_t[gpu::CARRIED_LISTS], for the time of carry()
+    VkDeviceAddress depths;   ///< float, written: camera depths of what is carried; 0: they are not wanted
 };
 
 class Reprojection {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "renderer/higs/splat_frame.h"
+
 namespace hipr {
 namespace {
 
@@ -62,7 +64,9 @@ void SplatLayer::setScene(const SplatTable& table, const std::vector<SplatPlacem
 }
 
 void SplatLayer::setView(const gpu::CameraRecord& camera, uint32_t width, uint32_t height) {
-    _drawn &= width == _view.width && height == _view.height; // what is drawn does not fit another film
+    const bool sameFilm = width == _view.width && height == _view.height;
+    _drawn &= sameFilm; // what is drawn does not fit another film
+    _failed &= sameFilm;
     _view.camera = camera;
     _view.width = width;
     _view.height = height;
@@ -84,6 +88,7 @@ void SplatLayer::setSettings(const Settings& settings) {
 }
 
 void SplatLayer::setDepths(VkDeviceAddress cameraDepths) {
+    if (cameraDepths == 0 && _depths == 0) return;
     _depths = cameraDepths;
     _pending = true;
     if (_ready) _pass->setDepthLimit(cameraDepths);
@@ -118,14 +123,37 @@ void SplatLayer::prepare() {
 bool SplatLayer::render(const std::atomic<bool>& cancel) {
     try {
         if (!_pass->render(&cancel)) return false;
-        _pixels.resize(size_t(_view.width) * _view.height);
-        _device.download(_pass->pixels(), _pixels.data(), _pixels.size() * sizeof(gpu::SplatPixel));
+        fetch();
         _drawn = true;
     } catch (const std::bad_alloc& e) {
         fail(reasonOf(e));
     }
     _pending = false;
     return true;
+}
+
+/// Makes what was drawn readable by the host. It is copied only where the host cannot read device memory, and
+/// then only the rows between which something was drawn.
+void SplatLayer::fetch() {
+    _shown = _pass->pixels().mapped<gpu::SplatPixel>();
+    if (_shown) return;
+    const size_t width = _view.width, pixels = width * _view.height;
+    const std::vector<uint32_t>& tiles = _pass->drawnTiles();
+    const auto drawn = [](uint32_t tile) { return tile != 0; };
+    size_t first = size_t(std::find_if(tiles.begin(), tiles.end(), drawn) - tiles.begin());
+    size_t end = size_t(tiles.rend() - std::find_if(tiles.rbegin(), tiles.rend(), drawn));
+    if (_pixels.size() == pixels) {
+        const size_t columns = _pass->tileColumns(), rowPixels = width * binSize(_pass->mode()).y;
+        first = std::min(first / columns * rowPixels, pixels);
+        end = std::min((end + columns - 1) / columns * rowPixels, pixels);
+    } else {
+        _pixels.resize(pixels);
+        first = 0, end = pixels;
+    }
+    constexpr uint64_t Stride = sizeof(gpu::SplatPixel);
+    if (first < end)
+        _device.download(_pass->pixels(), &_pixels[first], (end - first) * Stride, first * Stride);
+    _shown = _pixels.data();
 }
 
 void SplatLayer::fail(const char* reason) {
@@ -135,10 +163,10 @@ void SplatLayer::fail(const char* reason) {
 }
 
 void SplatLayer::blend(const AovRequest& aov, void* values, uint64_t pixels) const {
-    if (!_drawn || _pixels.size() != pixels) return;
+    if (!_drawn || pixelCount() != pixels) return;
     const auto replace = [&](auto word) {
-        for (size_t i = 0; i < _pixels.size(); ++i)
-            if (_pixels[i].splat != gpu::NO_SPLAT) word(_pixels[i], i);
+        for (size_t i = 0; i < pixels; ++i)
+            if (_shown[i].splat != gpu::NO_SPLAT) word(_shown[i], i);
     };
     int* ints = static_cast<int*>(values);
     glm::vec3* vectors = static_cast<glm::vec3*>(values);
@@ -166,8 +194,8 @@ void SplatLayer::blend(const AovRequest& aov, void* values, uint64_t pixels) con
 }
 
 void SplatLayer::blendColor(float* rgba) const {
-    for (size_t i = 0; i < _pixels.size(); ++i, rgba += 4) {
-        const gpu::SplatPixel& pixel = _pixels[i];
+    for (size_t i = 0; i < pixelCount(); ++i, rgba += 4) {
+        const gpu::SplatPixel& pixel = _shown[i];
         for (int c = 0; c < 3; ++c)
             rgba[c] = pixel.color[c] + pixel.transmittance * rgba[c];
         rgba[3] = 1.f - pixel.transmittance * (1.f - rgba[3]);
@@ -175,17 +203,17 @@ void SplatLayer::blendColor(float* rgba) const {
 }
 
 void SplatLayer::blendAlbedo(float* rgb) const {
-    for (size_t i = 0; i < _pixels.size(); ++i, rgb += 3)
+    for (size_t i = 0; i < pixelCount(); ++i, rgb += 3)
         for (int c = 0; c < 3; ++c)
-            rgb[c] = _pixels[i].color[c] + _pixels[i].transmittance * rgb[c];
+            rgb[c] = _shown[i].color[c] + _shown[i].transmittance * rgb[c];
 }
 
 void SplatLayer::blendDepth(AovKind kind, float* depths) const {
-    for (size_t i = 0; i < _pixels.size(); ++i) {
-        if (_pixels[i].splat == gpu::NO_SPLAT) continue;
+    for (size_t i = 0; i < pixelCount(); ++i) {
+        if (_shown[i].splat == gpu::NO_SPLAT) continue;
         const glm::vec2 film = glm::vec2(i % _view.width, i / _view.width) + 0.5f;
         const glm::vec2 ndc = 2.f * film / glm::vec2(_view.width, _view.height) - 1.f;
-        const glm::vec4 point(pointAt(_view.camera, ndc, _pixels[i].depth), 1.f);
+        const glm::vec4 point(pointAt(_view.camera, ndc, _shown[i].depth), 1.f);
         if (kind == AovKind::CameraDepth) {
             depths[i] = -(_view.camera.worldToView * point).z;
         } else {

@@ -39,8 +39,8 @@ public:
     bool ready(std::chrono::milliseconds patience);
     /// Whether render() has work.
     bool pending() const { return present() && _pending; }
-    /// Draws; false when `cancel` was seen. Memory that is exhausted gives one message and a picture without
-    /// splats.
+    /// Draws; false when `cancel` was seen: parts of the picture may be drawn then. Memory that is exhausted
+    /// gives one message and a picture without splats until setScene() or another film.
     bool render(const std::atomic<bool>& cancel);
 
     /// Puts the splats over what the film holds of an AOV of so many pixels. A film that splats were not
@@ -62,6 +62,8 @@ private:
     void blendColor(float* rgba) const;
     void blendAlbedo(float* rgb) const;
     void blendDepth(AovKind kind, float* depths) const;
+    void fetch();
+    size_t pixelCount() const { return size_t(_view.width) * _view.height; }
     void fail(const char* reason);
 
     Device& _device;
@@ -72,7 +74,8 @@ private:
     VkDeviceAddress _depths = 0;
     std::future<std::unique_ptr<SplatPass>> _compiling;
     std::unique_ptr<SplatPass>& _pass;
-    std::vector<gpu::SplatPixel> _pixels; ///< as drawn, for the host
+    const gpu::SplatPixel* _shown = nullptr; ///< what was drawn, while `_drawn`
+    std::vector<gpu::SplatPixel> _pixels;    ///< a copy of it, where the host needs one
     bool _pending = false, _failed = false, _drawn = false, _ready = false;
 };
 

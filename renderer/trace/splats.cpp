@@ -8,20 +8,31 @@ bool RendererImpl::complete() const {
     return _schedule.samplesDone() >= uint32_t(_settings.samples) && firstHitsDone() && !_splats.pending();
 }
 
-/// Splats may have come, gone, moved or changed.
+/// Splats may have come, gone, moved or changed, and so may what hides them.
 void RendererImpl::updateSplats() {
-    _splats.setScene(_scene.splats(), _scene.splatPlacements());
-    if (_film.keepDepths(_splats.present())) {
-        _firstHitsDone = 0;
-        _splatDepths = false;
+    if (_splatRevision != _scene.splatRevision()) {
+        _splatRevision = _scene.splatRevision();
+        _splats.setScene(_scene.splats(), _scene.splatPlacements());
     }
-    _setupPending = true;
+    if (_film.keepDepths(_splats.present() && _scene.anythingTraced())) {
+        findFirstHits(_film.depths() != 0);
+        if (!_film.depths()) _splats.setDepths(0);
+        _splatDepths = false;
+        _setupPending = true; // which tells where depths go
+    }
     awaitSplats();
 }
 
-/// The camera or the film is another one.
-void RendererImpl::viewSplats() {
-    _splatDepths = false;
+/// Whether splats wait to learn what hides them: nothing known yet is of this view, or has been carried to
+/// it.
+bool RendererImpl::depthsMissing() const {
+    return _edits.wantsFirstHits() || (_splats.pending() && _film.depths() && !_splatDepths);
+}
+
+/// The camera or the film is another one. `carried`: the film's depths have been carried to it.
+void RendererImpl::viewSplats(bool carried) {
+    _splatDepths = carried && _film.depths();
+    _splats.setDepths(_film.depths());
     if (!_scene.camera()) return;
     if (const std::optional<gpu::CameraRecord> camera = cameraRecord(*_scene.camera()))
         _splats.setView(*camera, _film.width(), _film.height());
@@ -37,6 +48,7 @@ void RendererImpl::awaitSplats() {
 bool RendererImpl::renderSplats() {
     const auto start = Clock::now();
     if (!_splats.render(_cancel)) return false;
+    _log.splats(!_film.depths() ? "none" : firstHitsDone() ? "current" : "earlier");
     count(0, std::chrono::duration<double>(Clock::now() - start).count());
     return !complete();
 }

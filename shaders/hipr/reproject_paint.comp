@@ -6,12 +6,21 @@
 #include "hipr/reprojection.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer StripRef { CarriedStrip v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer DepthRef { float v[]; };
 
 SeenPoint turned(SeenPoint seen) {
     if (seen.look >= SEEN_SKY) return seen;
     const vec3 before = viewDirection(CameraRef(push.before).v, seen.point);
     const vec3 after = viewDirection(CameraRef(push.after).v, seen.point);
     return SeenPoint(seen.point, turnedLook(seen.look, length(after - before)));
+}
+
+// Where splats are hidden until the new camera's first hits are known.
+float cameraDepth(SeenPoint seen, uint x, uint y) {
+    if (seen.look >= SEEN_SKY) return 0.0;
+    const CameraRecord camera = CameraRef(push.after).v;
+    const vec2 ndc = 2.0 * (vec2(x, y) + 0.5) / vec2(push.width, push.height) - 1.0;
+    return dot(camera.forward, seen.point - (camera.origin + ndc.x * camera.originX + ndc.y * camera.originY));
 }
 
 CarriedStrip paint(uint x, uint y) {
@@ -28,6 +37,7 @@ CarriedStrip paint(uint x, uint y) {
         carryTo(pixel, old);
     }
     keepSeen(pixel, seen);
+    if (push.depths != 0ul) DepthRef(push.depths).v[pixel] = cameraDepth(seen, x, y);
     const float radiance = max(dot(old.color.rgb, vec3(1.0 / 3.0)), 0.0);
     return CarriedStrip(uint(source == GUESSED), radiance * staleness(seen.look), radiance);
 }

@@ -120,6 +120,7 @@ struct ReprojectionPush {
     uint64_t lists;          // uint[CARRIED_LISTS * width * height]
     uint64_t strips;         // CarriedStrip[]: row by row, rows padded to whole tiles
     uint64_t counts;         // CarriedCounts
+    uint64_t depths;         // float[]: camera depths of what the new picture shows, 0 for the sky and what is not known; or 0
     uint width, height;
     uint tileShift;          // the tile size is 1 << tileShift
     uint tileColumns;

@@ -82,6 +82,12 @@ public:
         edit.setObject(object, shown);
     }
     std::vector<SplatPlacement> placements() const { return _scene->splatPlacements(); }
+    /// Commits. Whether splats, or where they stand, count as changed.
+    bool placesSplats() {
+        const uint64_t before = _scene->splatRevision();
+        commit();
+        return _scene->splatRevision() != before;
+    }
 
     SceneEdit edit;
 
@@ -251,4 +257,49 @@ TEST(ChangedSet, SplatsAreNamedLikeMeshesButTracedByNobody) {
     EXPECT_FALSE(removed.traced);
     EXPECT_EQ(removed.left, Places{16});
     EXPECT_TRUE(scene.placements().empty());
+}
+
+TEST(ChangedSet, SplatsArePlacedAgainOnlyWhenTheyChanged) {
+    constexpr ObjectId mesh{6};
+    Committed scene;
+    ObjectDesc desc = Committed::desc();
+    desc.name = "/mesh";
+    scene.edit.setObject(mesh, desc);
+    scene.showSplats(oneSplat(0));
+    EXPECT_TRUE(scene.placesSplats());
+
+    scene.edit.setCamera(lookAt({0, 0, 5}, {0, 0, 0}));
+    EXPECT_FALSE(scene.placesSplats());
+    scene.edit.setInstances(mesh, Committed::row({3}));
+    scene.edit.setMaterial(grey, matte(glm::vec3(0.2f)));
+    EXPECT_FALSE(scene.placesSplats());
+    scene.edit.setSplats(splats, oneSplat(0)); // an equal cloud
+    EXPECT_FALSE(scene.placesSplats());
+    scene.edit.removeObject(mesh);
+    EXPECT_FALSE(scene.placesSplats());
+
+    scene.edit.setInstances(object, Committed::row({0, 10}));
+    EXPECT_TRUE(scene.placesSplats());
+    scene.edit.setSplats(splats, oneSplat(1));
+    EXPECT_TRUE(scene.placesSplats());
+    desc.name = "/object";
+    desc.geometry = GeometryId::None;
+    desc.splats = splats;
+    desc.visible = false;
+    scene.edit.setObject(object, desc);
+    EXPECT_TRUE(scene.placesSplats());
+    EXPECT_TRUE(scene.placements().empty());
+    scene.edit.setInstances(object, Committed::row({0, 5})); // while hidden
+    EXPECT_FALSE(scene.placesSplats());
+    desc.visible = true;
+    scene.edit.setObject(object, desc);
+    EXPECT_TRUE(scene.placesSplats());
+    ASSERT_EQ(scene.placements().size(), 2u);
+    EXPECT_EQ(scene.placements()[1].objectToWorld[3].x, 5);
+    scene.edit.removeSplats(splats);
+    EXPECT_TRUE(scene.placesSplats());
+    scene.edit.setSplats(splats, oneSplat(1));
+    EXPECT_TRUE(scene.placesSplats());
+    scene.edit.removeObject(object);
+    EXPECT_TRUE(scene.placesSplats());
 }

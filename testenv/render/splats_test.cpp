@@ -29,7 +29,8 @@ SplatCloud ball(glm::vec3 color, float scale = 0.2f, float opacity = 0.99f) {
 /// Two matte squares, one behind the other, the left half of the nearer one cut away; seen from +z.
 class SplatStage : public Stage {
 public:
-    explicit SplatStage(uint32_t samples = 4) : Stage(withSamples(samples)) {
+    explicit SplatStage(uint32_t samples = 4, RendererInternals internals = {})
+        : Stage(withSamples(samples), internals) {
         LightDesc sun;
         sun.kind = LightKind::Distant;
         add(sun);
@@ -206,6 +207,97 @@ TEST(Splats, FollowMeshesAndCamera) {
     stage.render();
     EXPECT_EQ(stage.read<int>(AovKind::PrimId).values.size(), size_t(Size) * Size / 2);
 }
+
+TEST(Splats, AreSeenFromANewCameraBeforeAnyRayIsTracedThere) {
+    const auto build = [](SplatStage& stage) {
+        stage.addSplats(ball(Green, 0.5f), {translation(0, 0, -1)}); // half hidden
+    };
+    SplatStage stage(4, {8, 512});
+    build(stage);
+    stage.render();
+    stage.look({0.3, 0.2, 5.9});
+    stage.renderer->commit(stage.edit);
+    ASSERT_TRUE(stage.renderer->renderBatch());
+    EXPECT_EQ(stage.renderer->progress().nearestRays, 0u);
+    const Picture<int> shown = stage.read<int>(AovKind::PrimId);
+    SplatStage other;
+    build(other);
+    other.look({0.3, 0.2, 5.9});
+    other.render();
+    const Picture<int> expected = other.read<int>(AovKind::PrimId);
+    int covered = 0, wrong = 0;
+    for (size_t i = 0; i < shown.values.size(); ++i) {
+        covered += expected.values[i] == 77;
+        wrong += (shown.values[i] == 77) != (expected.values[i] == 77);
+    }
+    EXPECT_GT(covered, 30);
+    EXPECT_LE(wrong, covered / 10); // along the edge that hides them
+    stage.render();
+    EXPECT_TRUE(sameBits(stage.color(), other.color()));
+}
+
+TEST(Splats, AloneInASceneWaitForNoRays) {
+    const auto build = [](Stage& stage) {
+        const SplatsId splats = stage.renderer->newId<SplatsId>();
+        ObjectDesc desc;
+        desc.name = "/splats";
+        desc.splats = splats;
+        stage.edit.setSplats(splats, std::make_shared<SplatCloud>(ball(Green)));
+        stage.edit.setObject(stage.renderer->newId<ObjectId>(), desc);
+        stage.edit.setCamera(lookAt({0, 0, 6}, {0, 0, 0}));
+        stage.film(Size, Size);
+    };
+    Stage stage(SplatStage::withSamples(2), {8, 512});
+    build(stage);
+    stage.renderer->commit(stage.edit);
+    bool more = true;
+    while (more && !(stage.color().at(Size / 2, Size / 2).y > 0.8f))
+        more = stage.renderer->renderBatch();
+    EXPECT_TRUE(more);
+    EXPECT_EQ(stage.renderer->progress().nearestRays, 0u);
+    // A mesh comes before them, and goes.
+    const ObjectId wall = stage.add(quadMesh(), matte(glm::vec3(0)), {translation(0, 0, 2)});
+    stage.render();
+    EXPECT_LT(stage.color().at(Size / 2, Size / 2).y, 0.1f);
+    stage.edit.removeObject(wall);
+    stage.render();
+    Stage fresh(SplatStage::withSamples(2));
+    build(fresh);
+    fresh.render();
+    EXPECT_TRUE(sameBits(stage.color(), fresh.color()));
+}
+
+TEST(Splats, MayGoWhileWhatHidesThemIsSought) {
+    SplatStage stage(1, {8, 64});
+    stage.film(Size, Size); // no AOV wants first hits
+    stage.addSplats(ball(Green), {translation(0, 0, 1)});
+    stage.renderer->commit(stage.edit);
+    while (stage.renderer->progress().nearestRays == 0)
+        ASSERT_TRUE(stage.renderer->renderBatch());
+    stage.edit.removeObject(stage.object);
+    stage.render();
+    EXPECT_TRUE(stage.renderer->progress().converged);
+    SplatStage bare(1);
+    bare.render();
+    EXPECT_TRUE(sameBits(stage.color(), bare.color()));
+}
+
+TEST(Splats, AreFetchedFromMemoryTheHostCannotRead) {
+    const auto move = [](SplatStage& stage) {
+        stage.addSplats(ball(Green), {translation(-1, 0.8f, 1), translation(1, -0.8f, 1)});
+        stage.render();
+        stage.place({translation(-1, 0.8f, 1), translation(0.6f, -0.7f, 1)});
+        stage.render();
+        return stage.color();
+    };
+    SplatStage near;
+    const ColorPicture expected = move(near);
+    setenv("HIPR_NO_HOST_MEMORY", "1", 1);
+    SplatStage far;
+    unsetenv("HIPR_NO_HOST_MEMORY");
+    EXPECT_TRUE(sameBits(move(far), expected));
+}
+
 TEST(Splats, OfAllModesLookAlike) {
     SplatCloud cloud = ball(Green);
     cloud.positions.clear(), cloud.scales.clear(), cloud.opacities.clear(), cloud.coefficients.clear();

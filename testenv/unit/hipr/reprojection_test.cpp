@@ -88,6 +88,7 @@ TileSchedule settled() {
 struct Carried {
     bool done;
     Shown shown;
+    std::vector<float> depths;
     std::vector<gpu::CarriedStrip> strips;
 
     uint32_t uncovered() const {
@@ -110,10 +111,11 @@ Carried carry(const Shown& shown, const gpu::CameraRecord& before, const gpu::Ca
               const TileSchedule& schedule = settled()) {
     Buffer film = toDevice(shown.film), old = toDevice(shown.old), seen = toDevice(shown.seen),
            carried = emptyBuffer<gpu::OldPixel>(Pixels), seenAfter = emptyBuffer<gpu::SeenPoint>(Pixels),
-           lists = emptyBuffer<uint32_t>(gpu::CARRIED_LISTS * Pixels);
+           lists = emptyBuffer<uint32_t>(gpu::CARRIED_LISTS * Pixels), depths = emptyBuffer<float>(Pixels);
     Carried result;
-    result.done = reprojection().carry({film, old, carried, seen, seenAfter, lists}, schedule, before, after,
-                                       result.strips);
+    result.done = reprojection().carry({film, old, carried, seen, seenAfter, lists, depths.address()},
+                                       schedule, before, after, result.strips);
+    result.depths = toHost<float>(depths, Pixels);
     result.shown.film = toHost<gpu::FilmPixel>(film, Pixels);
     if (result.done) { // as means of one sample
         const auto pixels = toHost<gpu::OldPixel>(carried, Pixels);
@@ -228,6 +230,36 @@ TEST(Reprojection, ShiftsAPlaneByWholePixels) {
                 EXPECT_EQ(carried.shown.film[i].color, shown.mean(x + 3 + (y - 2) * Width));
             }
         EXPECT_EQ(carried.uncovered(), 3 * Height + 2 * (Width - 3));
+    }
+}
+
+TEST(Reprojection, TellsTheCameraDepthsOfWhatItCarried) {
+    for (View view : {View::Perspective, View::Orthographic}) {
+        const gpu::CameraRecord before = cameraAt(view, {0, 0, 5}, {0, 0, 0}),
+                                after = cameraAt(view, {0.4, 0.1, 4.6}, {0.1, 0, 0});
+        // A slope, and the sky in a corner.
+        const Carried carried = carry(shownBy(before,
+                                              [](uint32_t x, uint32_t y) {
+                                                  return x < 20 && y < 20
+                                                             ? std::pair(0.f, gpu::SEEN_SKY)
+                                                             : std::pair(4.f + 0.02f * float(x), Matte);
+                                              }),
+                                      before, after);
+        ASSERT_TRUE(carried.done);
+        uint32_t surfaces = 0, none = 0;
+        for (uint32_t i = 0; i < Pixels; ++i) {
+            const gpu::SeenPoint& seen = carried.shown.seen[i];
+            if (seen.look >= gpu::SEEN_SKY) {
+                ++none;
+                EXPECT_EQ(carried.depths[i], 0.f);
+                continue;
+            }
+            ++surfaces;
+            EXPECT_NEAR(carried.depths[i], gpu::projectToFilm(after, seen.point, Width, Height).depth, 1e-4f)
+                << i;
+        }
+        EXPECT_GT(surfaces, Pixels / 2);
+        EXPECT_GT(none, 200u);
     }
 }
 
