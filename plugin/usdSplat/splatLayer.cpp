@@ -1,23 +1,16 @@
 #include "plugin/usdSplat/splatLayer.h"
 
 #include <algorithm>
-#include <limits>
-
-#include <glm/gtc/quaternion.hpp>
 
 #include "pxr/base/gf/quatf.h"
-#include "pxr/base/gf/vec3f.h"
-#include "pxr/base/vt/array.h"
 #include "pxr/usd/sdf/attributeSpec.h"
 #include "pxr/usd/sdf/primSpec.h"
 #include "pxr/usd/sdf/types.h"
+#include "renderer/splats/bounds.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
 
 namespace {
-
-/// Splats are seen up to so many standard deviations (the support of UsdVol's Gaussian kernel).
-constexpr float reach = 3.f;
 
 GfVec3f toGf(glm::vec3 const& v) {
     return GfVec3f(v.x, v.y, v.z);
@@ -35,29 +28,6 @@ template <class T> auto taken(std::vector<T>& values) {
     std::transform(values.begin(), values.end(), array.data(), [](T const& value) { return toGf(value); });
     std::vector<T>().swap(values);
     return array;
-}
-
-/// Half the size of the box around a turned splat: a row of its rotation times its scales is a gradient.
-glm::vec3 halfSize(glm::vec3 const& scale, glm::quat const& orientation) {
-    const glm::mat3 turn = glm::mat3_cast(orientation);
-    glm::vec3 size;
-    for (int axis = 0; axis < 3; ++axis) {
-        size[axis] = glm::length(glm::vec3(turn[0][axis], turn[1][axis], turn[2][axis]) * scale);
-    }
-    return reach * size;
-}
-
-VtVec3fArray extentOf(hipr::SplatCloud const& cloud) {
-    glm::vec3 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
-    for (size_t i = 0; i < cloud.size(); ++i) {
-        const glm::vec3 scale = cloud.scales.empty() ? glm::vec3(1.f) : cloud.scales[i];
-        const glm::quat turn =
-            cloud.orientations.empty() ? glm::quat(1.f, 0.f, 0.f, 0.f) : cloud.orientations[i];
-        const glm::vec3 half = halfSize(scale, turn);
-        low = glm::min(low, cloud.positions[i] - half);
-        high = glm::max(high, cloud.positions[i] + half);
-    }
-    return cloud.size() > 0 ? VtVec3fArray{toGf(low), toGf(high)} : VtVec3fArray();
 }
 
 void addAttribute(SdfPrimSpecHandle const& prim, char const* name, SdfValueTypeName const& type,
@@ -100,6 +70,12 @@ void turn(SdfPrimSpecHandle const& prim, UsdSplatUp up) {
 
 } // namespace
 
+VtVec3fArray UsdSplatExtent(hipr::SplatCloud const& cloud) {
+    constexpr float reach = 3.f; // the support of UsdVol's Gaussian kernel, in standard deviations
+    const hipr::SplatBox box = hipr::splatBox(cloud, reach);
+    return box.empty() ? VtVec3fArray() : VtVec3fArray{toGf(box.lo), toGf(box.hi)};
+}
+
 std::optional<UsdSplatUp> UsdSplatUpNamed(std::string const& name) {
     constexpr std::pair<char const*, UsdSplatUp> names[] = {
         {"y", UsdSplatUp::Y}, {"-y", UsdSplatUp::MinusY}, {"z", UsdSplatUp::Z}, {"-z", UsdSplatUp::MinusZ}};
@@ -116,7 +92,7 @@ SdfLayerRefPtr UsdSplatMakeLayer(hipr::SplatCloud&& cloud, UsdSplatUp up) {
     const SdfPrimSpecHandle prim =
         SdfPrimSpec::New(layer, "Splats", SdfSpecifierDef, "ParticleField3DGaussianSplat");
     layer->SetDefaultPrim(prim->GetNameToken());
-    addAttribute(prim, "extent", SdfValueTypeNames->Float3Array, VtValue(extentOf(cloud)));
+    addAttribute(prim, "extent", SdfValueTypeNames->Float3Array, VtValue(UsdSplatExtent(cloud)));
     addArray(prim, "positions", SdfValueTypeNames->Point3fArray, cloud.positions);
     addArray(prim, "orientations", SdfValueTypeNames->QuatfArray, cloud.orientations);
     addArray(prim, "scales", SdfValueTypeNames->Float3Array, cloud.scales);

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "pxr/base/gf/vec3f.h"
+#include "pxr/base/vt/array.h"
 #include "pxr/pxr.h"
 #include "pxr/usd/sdf/layer.h"
 #include "renderer/api/splats.h"
@@ -16,6 +18,9 @@ enum class UsdSplatUp { Y, MinusY, Z, MinusZ };
 
 /// From "y", "-y", "z" or "-z".
 std::optional<UsdSplatUp> UsdSplatUpNamed(std::string const& name);
+
+/// The extent attribute of a cloud's prim: its lower and its upper corner; none without splats.
+VtVec3fArray UsdSplatExtent(hipr::SplatCloud const& cloud);
 
 /// A layer whose default prim, /Splats, is the cloud as a ParticleField3DGaussianSplat in single precision,
 /// with its extent, turned so that `up` becomes Y. The cloud's arrays are emptied on the way, to need the

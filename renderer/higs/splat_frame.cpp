@@ -1,6 +1,8 @@
 #include "renderer/higs/splat_frame.h"
 
+#include <array>
 #include <cmath>
+#include <limits>
 
 namespace hipr {
 namespace {
@@ -21,6 +23,50 @@ bool finite(const glm::dmat4& m) {
         for (int r = 0; r < 4; ++r)
             if (!std::isfinite(m[c][r])) return false;
     return true;
+}
+
+struct Interval {
+    float lo = std::numeric_limits<float>::max(), hi = std::numeric_limits<float>::lowest();
+    void add(float v) {
+        lo = std::min(lo, v);
+        hi = std::max(hi, v);
+    }
+};
+
+std::array<glm::vec4, 8> cornersOf(const SplatBounds& b) {
+    std::array<glm::vec4, 8> corners;
+    for (int i = 0; i < 8; ++i)
+        corners[i] = {i & 1 ? b.hi.x : b.lo.x, i & 2 ? b.hi.y : b.lo.y, i & 4 ? b.hi.z : b.lo.z, 1.f};
+    return corners;
+}
+
+/// What projectTangentially() in project.comp does to a standard deviation and to a centre at most, the
+/// latter in standard deviations.
+const float MostTangentStretch = 1.f / (1.f - gpu::SPLAT_TANGENT_LIMIT);
+const float MostTangentShift =
+    std::sqrt(gpu::SPLAT_TANGENT_CONTOUR * gpu::SPLAT_TANGENT_LIMIT) * MostTangentStretch;
+
+/// Whether splats may reach from `lo` to `hi` along one side of the picture, of `size` pixels. `pixel`: the
+/// placement's pixelX or pixelY; `leastW`: of all centres, positive. A splat's reach there is that of
+/// projectShape() in project.comp, whose gradient is bounded by those at the ends of where it is taken.
+bool meets(const glm::vec4& pixel, const gpu::SplatPlacement& p, const SplatBounds& bounds, float leastW,
+           bool limited, float size, float lo, float hi) {
+    Interval mean;
+    for (const glm::vec4& corner : cornersOf(bounds))
+        mean.add(glm::dot(pixel, corner) / glm::dot(p.clipW, corner));
+    Interval at = mean;
+    if (limited) {
+        at.lo = glm::clamp(mean.lo, -0.15f * size, 1.15f * size);
+        at.hi = glm::clamp(mean.hi, -0.15f * size, 1.15f * size);
+    }
+    const auto gradient = [&](float x) { return glm::length(glm::vec3(pixel) - x * glm::vec3(p.clipW)); };
+    float deviation = bounds.deviation * std::max(gradient(at.lo), gradient(at.hi)) / leastW;
+    const float shift = limited ? 0.f : MostTangentShift * deviation;
+    if (!limited) deviation *= MostTangentStretch;
+    const float reach =
+        1.01f * (gpu::SPLAT_MAX_EXTENT * std::sqrt(deviation * deviation + gpu::SPLAT_DILATION) + shift) +
+        1.f;
+    return !(mean.hi + reach < lo || mean.lo - reach > hi); // true as well where it is not a number
 }
 
 } // namespace
@@ -67,13 +113,32 @@ gpu::SplatPlacement splatPlacement(const SplatInstance& instance, const SplatVie
     return p;
 }
 
-SplatBlocks splatBlocks(const std::vector<SplatInstance>& instances) {
+bool mayShow(const SplatInstance& instance, const SplatView& view) {
+    const SplatBounds& bounds = instance.store->bounds();
+    const gpu::SplatPlacement p = splatPlacement(instance, view, 0);
+    if (bounds.lo.x > bounds.hi.x || (p.flags & gpu::SPLATS_HIDDEN)) return false;
+    Interval depth, w;
+    for (const glm::vec4& corner : cornersOf(bounds)) {
+        depth.add(glm::dot(p.depth, corner));
+        w.add(glm::dot(p.clipW, corner));
+    }
+    const float slack = 1e-4f * (std::abs(depth.lo) + std::abs(depth.hi)); // of the kernel's own rounding
+    if (depth.hi + slack < view.camera.nearDepth || depth.lo - slack > view.camera.farDepth) return false;
+    if (!(w.lo > 0.f)) return true; // some centres are beside the camera: they may be seen anywhere
+    const float width = float(view.width), height = float(view.height);
+    const bool limited = !(p.flags & gpu::SPLATS_TANGENTIAL);
+    return meets(p.pixelX, p, bounds, w.lo, limited, width, float(view.cropX),
+                 view.cropWidth ? float(view.cropX + view.cropWidth) : width) &&
+           meets(p.pixelY, p, bounds, w.lo, limited, height, float(view.cropY),
+                 view.cropHeight ? float(view.cropY + view.cropHeight) : height);
+}
+
+SplatBlocks splatBlocks(const std::vector<size_t>& sizes) {
     SplatBlocks all;
     uint64_t splats = 0;
-    for (const SplatInstance& instance : instances) {
+    for (const size_t size : sizes) {
         all.firstBlock.push_back(uint32_t(all.blocks.size()));
         all.firstSplat.push_back(uint32_t(splats));
-        const size_t size = instance.store->size();
         for (size_t first = 0; first < size; first += gpu::SPLAT_BLOCK)
             all.blocks.push_back({uint32_t(all.firstBlock.size() - 1), uint32_t(first)});
         splats += size;

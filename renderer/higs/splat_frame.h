@@ -15,12 +15,15 @@ bool isFlat(SplatMode mode);
 /// precision. Instances that cannot be seen (a matrix without inverse) are hidden.
 gpu::SplatPlacement splatPlacement(const SplatInstance& instance, const SplatView& view, uint32_t first);
 
-/// Blocks of all instances, SPLAT_BLOCK splats each, and where each instance's begin.
+/// Whether any splat of an instance may show: false only where none does. Looks at its bounds alone.
+bool mayShow(const SplatInstance& instance, const SplatView& view);
+
+/// Blocks of clouds of so many splats, SPLAT_BLOCK splats each, and where each cloud's begin.
 struct SplatBlocks {
     std::vector<gpu::SplatBlock> blocks;
-    std::vector<uint32_t> firstBlock, firstSplat; ///< one more than instances
+    std::vector<uint32_t> firstBlock, firstSplat; ///< one more than clouds
 };
-SplatBlocks splatBlocks(const std::vector<SplatInstance>& instances);
+SplatBlocks splatBlocks(const std::vector<size_t>& sizes);
 
 /// A buffer that grows and never shrinks.
 class GrowingBuffer {

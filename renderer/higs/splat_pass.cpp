@@ -46,14 +46,6 @@ bool same(const SplatView& a, const SplatView& b) {
            a.antialiased == b.antialiased && a.srgb == b.srgb;
 }
 
-/// Lists are sorted by one measure: the most demanding that any instance asks for.
-SplatSorting sortingOf(const std::vector<SplatInstance>& instances) {
-    SplatSorting sorting = SplatSorting::ZDepth;
-    for (const SplatInstance& instance : instances)
-        sorting = std::max(sorting, instance.store->sorting());
-    return sorting;
-}
-
 gpu::SplatFrame frameRecord(const SplatView& view, SplatMode mode, bool profiling) {
     gpu::SplatFrame f{};
     const glm::uvec2 tile = binSize(mode), size(view.width, view.height);
@@ -103,7 +95,9 @@ struct SplatPass::Impl {
     SplatStages stages;
     SplatView view;
     std::vector<SplatInstance> instances;
-    SplatBlocks blocks;
+    std::vector<uint32_t> placed; ///< instances that may show: the frame is about these alone
+    std::vector<uint32_t> places; ///< index in `placed` by instance, or OutOfSight
+    SplatBlocks blocks;           ///< of `placed`
     SplatMode wanted = SplatMode::Automatic;
     VkDeviceAddress depthLimit = 0;
     bool profiling = false;
@@ -122,9 +116,13 @@ struct SplatPass::Impl {
         bool mayStop = false; ///< a frame may be cancelled before it
     };
 
+    static constexpr uint32_t OutOfSight = ~0u;
+
     bool doing(int what) const { return work == what; }
     void need(int what) { work = std::max(work, what); }
     SplatMode mode() const { return wanted == SplatMode::Automatic ? SplatMode::Higs8Carry : wanted; }
+    bool movedIntoSight() const;
+    void place();
     void setUp();
     void project(VkCommandBuffer cmd) const;
     std::vector<Step> steps(bool again) const;
@@ -135,14 +133,40 @@ struct SplatPass::Impl {
     void tally();
 };
 
+/// Whether an instance moved that the blocks do not hold.
+bool SplatPass::Impl::movedIntoSight() const {
+    return std::any_of(moved.begin(), moved.end(),
+                       [&](uint32_t i) { return places[i] == OutOfSight && mayShow(instances[i], view); });
+}
+
+/// Leaves out what cannot be seen.
+void SplatPass::Impl::place() {
+    placed.clear();
+    places.assign(instances.size(), OutOfSight);
+    std::vector<size_t> sizes;
+    for (uint32_t i = 0; i < instances.size(); ++i) {
+        if (!mayShow(instances[i], view)) continue;
+        places[i] = uint32_t(placed.size());
+        placed.push_back(i);
+        sizes.push_back(instances[i].store->size());
+    }
+    blocks = splatBlocks(sizes);
+}
+
 void SplatPass::Impl::setUp() {
+    if (doing(Placements) && movedIntoSight()) work = Everything;
+    if (doing(Everything)) place();
     std::vector<gpu::SplatPlacement> placements;
-    for (size_t i = 0; i < instances.size(); ++i)
-        placements.push_back(splatPlacement(instances[i], view, blocks.firstSplat[i]));
+    SplatSorting sorting = SplatSorting::ZDepth; // one for all lists: the most demanding that is asked for
+    for (size_t i = 0; i < placed.size(); ++i) {
+        const SplatInstance& instance = instances[placed[i]];
+        placements.push_back(splatPlacement(instance, view, blocks.firstSplat[i]));
+        sorting = std::max(sorting, instance.store->sorting());
+    }
     gpu::SplatFrame frame = frameRecord(view, mode(), profiling);
-    frame.placementCount = uint32_t(instances.size());
-    frame.splatCount = blocks.firstSplat.empty() ? 0 : blocks.firstSplat.back();
-    frame.sorting = uint32_t(sortingOf(instances));
+    frame.placementCount = uint32_t(placed.size());
+    frame.splatCount = blocks.firstSplat.back();
+    frame.sorting = uint32_t(sorting);
     frame.depthLimit = depthLimit;
     stages.setUp(mode(), frame, placements, blocks.blocks, view.camera);
 }
@@ -155,7 +179,8 @@ void SplatPass::Impl::project(VkCommandBuffer cmd) const {
     if (!doing(Placements)) return;
     const auto each = [&](auto stage) {
         for (const uint32_t i : moved)
-            (stages.*stage)(cmd, blocks.firstBlock[i], blocks.firstBlock[i + 1]);
+            if (places[i] != OutOfSight)
+                (stages.*stage)(cmd, blocks.firstBlock[places[i]], blocks.firstBlock[places[i] + 1]);
     };
     each(&SplatStages::touch); // where they were
     computeBarrier(cmd);
@@ -233,7 +258,9 @@ bool SplatPass::Impl::attempts(const std::atomic<bool>* cancel, gpu::SplatState*
 
 void SplatPass::Impl::report(const gpu::SplatState& state) {
     const gpu::SplatFrame& frame = stages.frame();
-    statistics.splats = frame.splatCount;
+    for (const SplatInstance& instance : instances)
+        statistics.splats += instance.store->size();
+    statistics.projected = frame.splatCount;
     statistics.pairs = state.pairs;
     statistics.largestList = state.largestList;
     statistics.batches = state.batches;
@@ -301,10 +328,9 @@ void SplatPass::setView(const SplatView& view) {
 
 void SplatPass::setInstances(std::vector<SplatInstance> instances) {
     Impl& d = *_impl;
-    if (!sameStores(instances, d.instances)) {
-        d.blocks = splatBlocks(instances);
+    if (!sameStores(instances, d.instances))
         d.need(Everything);
-    } else
+    else
         for (uint32_t i = 0; i < instances.size(); ++i) {
             if (same(instances[i], d.instances[i])) continue;
             d.moved.push_back(i);

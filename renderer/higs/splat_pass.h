@@ -7,7 +7,8 @@
 ///     pass.render();                                     // pass.pixels(): gpu::SplatPixel of every pixel
 ///
 /// render() does what the changes since the last one ask for: after a moved or hidden instance only
-/// macro-tiles (64 x 32 pixels) are drawn again in which it was or is.
+/// macro-tiles (64 x 32 pixels) are drawn again in which it was or is. Instances whose bounds are out of the
+/// picture cost nothing.
 #pragma once
 
 #include <atomic>
@@ -66,6 +67,7 @@ struct SplatInstance {
 /// subgroups have eight lanes or more.
 struct SplatStatistics {
     uint64_t splats = 0;       ///< of all instances
+    uint64_t projected = 0;    ///< of those, the ones of instances that may show in the picture
     uint64_t visible = 0;      ///< projected into the picture
     uint64_t pairs = 0;        ///< (splat, macro-tile), or (splat, tile) in flat modes
     uint64_t largestList = 0;  ///< pairs of one (macro-)tile

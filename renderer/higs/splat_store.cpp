@@ -61,15 +61,6 @@ private:
     bool _orientations, _scales, _opacities, _coefficients;
 };
 
-/// Half the edges of the box around a splat, one standard deviation.
-glm::vec3 deviations(const glm::quat& orientation, const glm::vec3& scale) {
-    const glm::mat3 axes = glm::mat3_cast(glm::normalize(orientation));
-    glm::vec3 squares(0.f);
-    for (int k = 0; k < 3; ++k)
-        squares += axes[k] * axes[k] * (scale[k] * scale[k]);
-    return glm::sqrt(squares);
-}
-
 /// The largest power of two with which all scales are below 2^16 when divided by it.
 float scaleUnit(float largest) {
     return largest > 0.f ? std::ldexp(1.f, std::max(std::ilogb(largest) - 15, -120)) : 1.f;
@@ -93,15 +84,13 @@ struct Packed {
     size_t broken = 0;
 };
 
-/// Drawable splats, their bounds and the largest scale.
+/// Drawable splats and their bounds.
 Packed survey(const Splats& splats, size_t count, std::vector<uint8_t>* drawable) {
     Packed packed;
-    float largest = 0.f;
     std::mutex mutex;
     drawable->resize(count);
     tbb::parallel_for(tbb::blocked_range<size_t>(0, count, 4096), [&](const auto& range) {
         SplatBounds bounds;
-        float scale = 0.f;
         size_t broken = 0;
         for (size_t i = range.begin(); i != range.end(); ++i) {
             (*drawable)[i] = splats.drawable(i);
@@ -110,18 +99,13 @@ Packed survey(const Splats& splats, size_t count, std::vector<uint8_t>* drawable
                 continue;
             }
             const glm::vec3 s = splats.scale(i), p = splats.position(i);
-            const glm::vec3 reach = gpu::SPLAT_MAX_EXTENT * deviations(splats.orientation(i), s);
-            bounds.lo = glm::min(bounds.lo, p - reach);
-            bounds.hi = glm::max(bounds.hi, p + reach);
-            scale = std::max({scale, s.x, s.y, s.z});
+            bounds.add({p, p, std::max({s.x, s.y, s.z})});
         }
         std::lock_guard lock(mutex);
-        packed.bounds.lo = glm::min(packed.bounds.lo, bounds.lo);
-        packed.bounds.hi = glm::max(packed.bounds.hi, bounds.hi);
+        packed.bounds.add(bounds);
         packed.broken += broken;
-        largest = std::max(largest, scale);
     });
-    packed.scaleUnit = scaleUnit(largest);
+    packed.scaleUnit = scaleUnit(packed.bounds.deviation);
     return packed;
 }
 

@@ -2,7 +2,8 @@
 /// One cloud of splats on the device.
 #pragma once
 
-#include <optional>
+#include <algorithm>
+#include <limits>
 
 #include "renderer/api/splats.h"
 #include "renderer/vulkan/device.h"
@@ -10,9 +11,16 @@
 
 namespace hipr {
 
-/// A box in object space; empty when lo > hi.
+/// Where splats can be, in object space; lo > hi: there is none.
 struct SplatBounds {
-    glm::vec3 lo{std::numeric_limits<float>::max()}, hi{std::numeric_limits<float>::lowest()};
+    glm::vec3 lo{std::numeric_limits<float>::max()}, hi{std::numeric_limits<float>::lowest()}; ///< of centres
+    float deviation = 0.f; ///< the largest standard deviation
+
+    void add(const SplatBounds& o) {
+        lo = glm::min(lo, o.lo);
+        hi = glm::max(hi, o.hi);
+        deviation = std::max(deviation, o.deviation);
+    }
 };
 
 /// What the kernels read of a cloud. A splat takes 28 + 6 * (degree + 1)^2 bytes, 124 at degree 3: its
@@ -34,7 +42,7 @@ public:
     size_t broken() const { return _broken; }
     /// Device memory the arrays take.
     uint64_t bytes() const;
-    /// Around all splats, to 3.33 standard deviations.
+    /// Of the splats that can be drawn.
     const SplatBounds& bounds() const { return _bounds; }
     SplatSorting sorting() const { return _sorting; }
     SplatProjection projection() const { return _projection; }

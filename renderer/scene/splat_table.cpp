@@ -1,27 +1,15 @@
 #include "renderer/scene/splat_table.h"
 
-#include <algorithm>
+#include "renderer/splats/bounds.h"
+#include "shaders/shared/higs.h"
 
 namespace hipr {
 namespace {
-
-/// Standard deviations within which a splat is seen: beyond, even an opaque one stays below 1/255.
-constexpr float Reach = 3.33f;
 
 bool equal(const SplatCloud& a, const SplatCloud& b) {
     return a.name == b.name && a.positions == b.positions && a.orientations == b.orientations &&
            a.scales == b.scales && a.opacities == b.opacities && a.shDegree == b.shDegree &&
            a.coefficients == b.coefficients && a.sorting == b.sorting && a.projection == b.projection;
-}
-
-WorldBox boxOf(const SplatCloud& cloud) {
-    WorldBox box;
-    for (size_t i = 0; i < cloud.size(); ++i) {
-        const glm::vec3 scale = cloud.scales.empty() ? glm::vec3(1.f) : glm::abs(cloud.scales[i]);
-        const float reach = Reach * std::max(scale.x, std::max(scale.y, scale.z));
-        box.add({cloud.positions[i] - reach, cloud.positions[i] + reach});
-    }
-    return box;
 }
 
 template <class T> uint64_t bytesOf(const std::vector<T>& values) {
@@ -37,7 +25,8 @@ Change SplatTable::set(SplatsId id, std::shared_ptr<const SplatCloud> cloud) {
     set.cloud = std::move(cloud);
     if (same) return Change::None;
     set.revision = ++_revisions;
-    set.box = boxOf(*set.cloud);
+    const SplatBox box = splatBox(*set.cloud, gpu::SPLAT_MAX_EXTENT);
+    set.box = {box.lo, box.hi};
     return added ? Change::Added : Change::Geometry;
 }
 

@@ -51,12 +51,32 @@ SplatRay rayOf(vec3 a, vec3 b, vec3 c, vec3 relative) {
     return ray;
 }
 
+// Tangential projection: the splat is projected orthogonally onto the plane that touches the sphere around the camera in the
+// direction of its centre; one of the ellipses there, seen through the picture, becomes that of a Gaussian again. `x`, `y`:
+// the gradient of the pixel along the axes, made to span that Gaussian, whose centre moves. See docs/higs.md.
+void projectTangentially(SplatPlacement placement, Shape shape, vec4 p, float inverseW, inout vec2 mean, inout vec3 x,
+                         inout vec3 y) {
+    const vec3 relative = toWorld(placement, p.xyz - placement.eye);
+    const float scale = 1.0 / dot(relative, relative);
+    vec3 w; // how W changes along the axes, once they lie in that plane
+    for (int k = 0; k < 3; ++k)
+        w[k] = dot(placement.clipW.xyz, shape.axes[k]) * inverseW - dot(relative, toWorld(placement, shape.axes[k])) * scale;
+    const float contour = min(SPLAT_TANGENT_CONTOUR, SPLAT_TANGENT_LIMIT / max(dot(w, w), 1e-20));
+    const float rest = 1.0 - contour * dot(w, w), root = sqrt(rest);
+    const vec2 along = vec2(dot(x, w), dot(y, w));
+    mean -= contour / rest * along;
+    const vec3 stretch = contour / (root * (1.0 + root)) * w;
+    x = (x + along.x * stretch) / root;
+    y = (y + along.y * stretch) / root;
+}
+
 // The ellipse: J S S^T J^T + dilation, J being the gradient of the projection at the centre, S the axes.
 bool projectShape(SplatFrame frame, SplatPlacement placement, Shape shape, vec4 p, inout ProjectedSplat s) {
     const float inverseW = 1.0 / dot(placement.clipW, p);
     s.mean = vec2(dot(placement.pixelX, p), dot(placement.pixelY, p)) * inverseW;
     vec2 at = s.mean;
-    if ((placement.flags & SPLATS_TANGENTIAL) == 0u) {
+    const bool tangential = (placement.flags & SPLATS_TANGENTIAL) != 0u;
+    if (!tangential) {
         // Far outside the picture the gradient says little about the splat's shape inside it: as 3DGS, stay within
         // 1.3 times the field of view.
         const vec2 size = vec2(frame.width, frame.height);
@@ -64,8 +84,10 @@ bool projectShape(SplatFrame frame, SplatPlacement placement, Shape shape, vec4 
     }
     const vec3 gradientX = (placement.pixelX.xyz - at.x * placement.clipW.xyz) * inverseW;
     const vec3 gradientY = (placement.pixelY.xyz - at.y * placement.clipW.xyz) * inverseW;
-    const vec3 x = vec3(dot(gradientX, shape.axes[0]), dot(gradientX, shape.axes[1]), dot(gradientX, shape.axes[2]));
-    const vec3 y = vec3(dot(gradientY, shape.axes[0]), dot(gradientY, shape.axes[1]), dot(gradientY, shape.axes[2]));
+    vec3 x = vec3(dot(gradientX, shape.axes[0]), dot(gradientX, shape.axes[1]), dot(gradientX, shape.axes[2]));
+    vec3 y = vec3(dot(gradientY, shape.axes[0]), dot(gradientY, shape.axes[1]), dot(gradientY, shape.axes[2]));
+    if (tangential && (frame.flags & FRAME_PARALLEL) == 0u)
+        projectTangentially(placement, shape, p, inverseW, s.mean, x, y);
     // The determinant as a sum of squares: that of needles keeps its precision.
     const bool antialiased = (frame.flags & FRAME_ANTIALIASED) != 0u;
     const float dilation = antialiased ? SPLAT_FILTER : SPLAT_DILATION;

@@ -25,6 +25,10 @@ HIPR_CONST float LOG2_E = 1.44269504f;
 // Added to the variance along both axes of the film: by 3DGS, and by Mip-Splatting's filter, which makes up for it.
 HIPR_CONST float SPLAT_DILATION = 0.3f;
 HIPR_CONST float SPLAT_FILTER = 0.1f;
+// A splat that is projected tangentially becomes the Gaussian of the picture that has this contour right, in squared
+// standard deviations: the best one by numbers. It is an earlier one where this one reaches too far round the camera.
+HIPR_CONST float SPLAT_TANGENT_CONTOUR = 2.0f;
+HIPR_CONST float SPLAT_TANGENT_LIMIT = 0.5f;
 // A tile is finished where less than this comes through all its pixels.
 HIPR_CONST float SPLAT_OPAQUE = 1e-4f;
 

@@ -131,6 +131,81 @@ TEST_P(SplatFrames, OpaqueThingsMoveBeforeAndAfterSplatsDo) {
     }
 }
 
+TEST_P(SplatFrames, InstancesOutOfSightAreNotProjected) {
+    SplatScene scene = threeClouds();
+    const uint64_t each = scene.clouds[0].size();
+    std::vector<SplatInstance> instances = instancesOf(scene);
+    const auto pass = passOf(scene);
+    const auto projected = [&](const char* what) {
+        pass->setInstances(instances);
+        EXPECT_TRUE(pass->render());
+        EXPECT_EQ(pass->statistics().splats, 3 * each);
+        EXPECT_TRUE(sameBits(pixelsOf(*pass, scene), fresh(scene, instances, SplatMode::Higs8Carry))) << what;
+        return pass->statistics().projected / each;
+    };
+    EXPECT_EQ(projected("all in sight"), 3u);
+    const glm::vec3 home = instances[1].objectToWorld[3];
+    SplatView view = viewOf(scene);
+    for (const glm::vec3 away :
+         {glm::vec3(0, 0, 9), glm::vec3(-9, 0, 0), glm::vec3(0, 5, 0), glm::vec3(0, 0, -200)}) {
+        instances[1].objectToWorld[3] = home + away;
+        projected("moved out of sight");
+        view.srgb = !view.srgb; // everything is drawn again
+        pass->setView(view);
+        ASSERT_TRUE(pass->render());
+        EXPECT_EQ(pass->statistics().projected, 2 * each) << away.x << ' ' << away.y << ' ' << away.z;
+        view.srgb = !view.srgb;
+        pass->setView(view);
+        instances[1].objectToWorld[3] = home + 0.9f * away; // from one such place to another
+        projected("still out of sight");
+        instances[1].objectToWorld[3] = home;
+        EXPECT_EQ(projected("back again"), 3u);
+    }
+    scene.camera.worldToView =
+        glm::lookAt(glm::dvec3(0, 0, 4), glm::dvec3(0, 0, 9), glm::dvec3(0, 1, 0)); // turns its back to them
+    pass->setView(viewOf(scene));
+    EXPECT_EQ(projected("nothing in sight"), 0u);
+}
+
+// Around the edges of the picture, splats that reach far: their own footprints decide.
+TEST_P(SplatFrames, BoundsHideNoSplatThatShows) {
+    Numbers random(11);
+    for (const SplatProjection projection : {SplatProjection::Perspective, SplatProjection::Tangential}) {
+        CloudRecipe recipe;
+        recipe.count = 4;
+        recipe.largest = 0.5f;
+        recipe.lo = glm::vec3(-0.2f);
+        recipe.hi = glm::vec3(0.2f);
+        SplatScene scene = sceneOf(randomCloud(recipe));
+        scene.clouds[0].projection = projection;
+        SplatCloud unbounded = scene.clouds[0]; // an invisible splat makes its bounds reach everywhere
+        unbounded.positions.push_back({0, 0, 0});
+        unbounded.orientations.push_back({1, 0, 0, 0});
+        unbounded.scales.push_back(glm::vec3(1e4f));
+        unbounded.opacities.push_back(0.f);
+        unbounded.coefficients.push_back(glm::vec3(0));
+        const auto bounded = std::make_shared<SplatStore>(testDevice(), scene.clouds[0]),
+                   free = std::make_shared<SplatStore>(testDevice(), unbounded);
+        std::vector<SplatInstance> some, all;
+        for (int i = 0; i < 400; ++i) {
+            const glm::vec3 place(random(-6, 6), random(-5, 5), random(-4, 5));
+            const float size = random(0.05f, 1.f);
+            glm::mat4x3 m(size);
+            m[3] = place;
+            some.push_back({bounded, m, i, i, true});
+            all.push_back({free, m, i, i, true});
+        }
+        for (const CameraDesc& camera : {perspectiveCamera(4.0 / 3), orthographicCamera(4.0 / 3)}) {
+            scene.camera = camera;
+            const auto pass = passOf(scene);
+            pass->setInstances(some);
+            ASSERT_TRUE(pass->render());
+            EXPECT_LT(pass->statistics().projected, 3 * some.size()); // of four splats each
+            EXPECT_TRUE(sameBits(pixelsOf(*pass, scene), fresh(scene, all, SplatMode::Higs8Carry)));
+        }
+    }
+}
+
 TEST_P(SplatFrames, ModesAgree) {
     CloudRecipe recipe;
     recipe.count = 12000;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_access.hpp>
@@ -12,6 +13,13 @@ namespace {
 
 using Row2 = glm::dmat3x2; ///< two rows, three columns
 
+/// A splat projected orthogonally onto the plane through d to which d is normal, the camera at the origin;
+/// d and e span world space.
+struct Tangent {
+    glm::dvec3 d, e[2];
+    glm::dmat2 covariance;
+};
+
 struct Shown {
     glm::dvec2 mean;
     glm::dmat2 covariance, inverse;
@@ -19,6 +27,7 @@ struct Shown {
     glm::dvec3 color;
     glm::dvec3 relative;     ///< world space, from the camera
     glm::dmat3 worldInverse; ///< of the covariance
+    std::optional<Tangent> exact;
     int cloud;
     uint32_t splat;
 };
@@ -88,6 +97,42 @@ void seePoint(const SplatScene& scene, const glm::dvec3& v, bool clamped, glm::d
     (*gradient)[2][1] = half.y * (at.y + p[2][1]) / w;
 }
 
+Tangent tangentOf(const glm::dvec3& relative, const glm::dmat3& covariance) {
+    Tangent t;
+    t.d = glm::normalize(relative);
+    t.e[0] =
+        glm::normalize(glm::cross(t.d, std::abs(t.d.y) < 0.5 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0)));
+    t.e[1] = glm::cross(t.d, t.e[0]);
+    for (int i = 0; i < 2; ++i)
+        for (int j = 0; j < 2; ++j)
+            t.covariance[i][j] = glm::dot(t.e[i], covariance * t.e[j]) / glm::dot(relative, relative);
+    return t;
+}
+
+/// Directions of world space to homogeneous pixels.
+glm::dmat3 directionsToPixels(const SplatScene& scene) {
+    const glm::dmat4 clip = scene.camera.projection * scene.camera.worldToView;
+    glm::dmat3 h;
+    for (int c = 0; c < 3; ++c)
+        h[c] = {0.5 * scene.width * (clip[c].x + clip[c].w), 0.5 * scene.height * (clip[c].y + clip[c].w),
+                clip[c].w};
+    return h;
+}
+
+/// The Gaussian one of whose ellipses is the picture of one on the tangent plane: by the dual conic of that,
+/// whose tangents are the lines l with l^T conic l = 0.
+void seeTangent(const SplatScene& scene, const Tangent& t, glm::dvec2* mean, glm::dmat2* covariance) {
+    const glm::dmat3 h = directionsToPixels(scene);
+    const glm::dvec3 centre = h * t.d, a = h * t.e[0], b = h * t.e[1];
+    const glm::dmat3 ellipse = t.covariance[0][0] * glm::outerProduct(a, a) +
+                               t.covariance[1][1] * glm::outerProduct(b, b) +
+                               t.covariance[0][1] * (glm::outerProduct(a, b) + glm::outerProduct(b, a));
+    const double contour = std::min(2.0, 0.5 * centre.z * centre.z / ellipse[2][2]);
+    const glm::dmat3 conic = (contour * ellipse - glm::outerProduct(centre, centre)) * -1.0;
+    *mean = glm::dvec2(conic[2]) / conic[2][2];
+    *covariance = (glm::outerProduct(*mean, *mean) - glm::dmat2(conic) / conic[2][2]) * (1.0 / contour);
+}
+
 /// False when the splat is not seen at all.
 bool show(const SplatScene& scene, size_t cloudIndex, size_t i, Shown* s) {
     const SplatCloud& cloud = scene.clouds[cloudIndex];
@@ -108,7 +153,13 @@ bool show(const SplatScene& scene, size_t cloudIndex, size_t i, Shown* s) {
     seePoint(scene, view, cloud.projection == SplatProjection::Perspective, &s->mean, &gradient);
     const glm::dmat3 linear(toView), worldLinear(toWorld);
     const glm::dmat3 covariance = linear * covarianceOf(cloud, i, 0) * glm::transpose(linear);
-    const glm::dmat2 sharp = gradient * covariance * glm::transpose(gradient);
+    glm::dmat2 sharp = gradient * covariance * glm::transpose(gradient);
+    if (cloud.projection == SplatProjection::Tangential && !parallel) {
+        const glm::dmat3 world = worldLinear * covarianceOf(cloud, i, 0) * glm::transpose(worldLinear);
+        const Tangent tangent = tangentOf(s->relative, world);
+        seeTangent(scene, tangent, &s->mean, &sharp);
+        if (scene.exactTangents) s->exact = tangent;
+    }
     const double dilation = scene.antialiased ? 0.1 : 0.3;
     s->covariance = sharp + glm::dmat2(dilation);
     s->inverse = glm::inverse(s->covariance);
@@ -153,12 +204,23 @@ bool inSquare(const Shown& s, const glm::dvec2& lo, const glm::dvec2& hi) {
            s.mean.y - radius < hi.y;
 }
 
-OraclePixel blend(const std::vector<const Shown*>& ordered, const glm::dvec2& at, double limit) {
+/// The squared distance from a splat's centre in standard deviations.
+double distanceOf(const SplatScene& scene, const Shown& s, const glm::dvec2& at) {
+    const glm::dvec2 d = at - s.mean;
+    if (!s.exact) return glm::dot(d, s.inverse * d);
+    const glm::dvec3 ray = glm::inverse(directionsToPixels(scene)) * glm::dvec3(at, 1);
+    const double along = glm::dot(ray, s.exact->d); // rays point where W is positive
+    if (along <= 0) return 1e30;
+    const glm::dvec2 u(glm::dot(ray, s.exact->e[0]) / along, glm::dot(ray, s.exact->e[1]) / along);
+    return glm::dot(u, glm::inverse(s.exact->covariance) * u);
+}
+
+OraclePixel blend(const SplatScene& scene, const std::vector<const Shown*>& ordered, const glm::dvec2& at,
+                  double limit) {
     OraclePixel pixel;
     for (const Shown* s : ordered) {
         if (s->depth > limit) continue;
-        const glm::dvec2 d = at - s->mean;
-        const double alpha = s->opacity * std::exp(-0.5 * glm::dot(d, s->inverse * d));
+        const double alpha = s->opacity * std::exp(-0.5 * distanceOf(scene, *s, at));
         if (std::abs(alpha * 255 - 1) < 0.01) pixel.flips += pixel.transmittance / 255;
         if (alpha < 1.0 / 255) continue;
         const double after = pixel.transmittance * (1 - alpha);
@@ -231,7 +293,7 @@ std::vector<OraclePixel> oraclePicture(const SplatScene& scene, glm::uvec2 tile,
                     const size_t at = size_t(y) * scene.width + x;
                     const double limit =
                         scene.limits.empty() || scene.limits[at] == 0.f ? 1e30 : double(scene.limits[at]);
-                    picture[at] = blend(ordered, {x + 0.5, y + 0.5}, limit);
+                    picture[at] = blend(scene, ordered, {x + 0.5, y + 0.5}, limit);
                 }
         }
     return picture;

@@ -15,7 +15,8 @@ struct SplatScene {
     CameraDesc camera;
     uint32_t width = 128, height = 96;
     bool antialiased = false;
-    std::vector<float> limits; ///< camera depths of what is opaque; empty: nothing is
+    bool exactTangents = false; ///< tangential splats pixel by pixel, without dilation
+    std::vector<float> limits;  ///< camera depths of what is opaque; empty: nothing is
 
     glm::dmat4 transform(size_t cloud) const {
         return cloud < transforms.size() ? transforms[cloud] : glm::dmat4(1.0);

@@ -89,6 +89,26 @@ protected:
     SplatPass& pass;
 };
 
+/// Seen under 110 degrees from within, most of it far from the middle; one cloud is turned and scaled.
+SplatScene wideScene(SplatProjection projection) {
+    CloudRecipe recipe;
+    recipe.lo = {-3.f, -2.f, 1.f};
+    recipe.hi = {3.f, 2.f, 3.5f};
+    recipe.count = 60;
+    recipe.smallest = 0.05f;
+    recipe.strongest = 0.7f;
+    SplatScene scene = sceneOf(randomCloud(recipe));
+    recipe.seed = 5;
+    scene.clouds.push_back(randomCloud(recipe));
+    scene.transforms = {glm::dmat4(1), glm::scale(glm::rotate(glm::dmat4(1), 0.2, glm::dvec3(1, 2, 3)),
+                                                  glm::dvec3(1.2, 0.6, 0.9))};
+    for (SplatCloud& cloud : scene.clouds)
+        cloud.projection = projection;
+    scene.camera.projection =
+        glm::perspective(glm::radians(110.0), double(scene.width) / scene.height, 0.1, 50.0);
+    return scene;
+}
+
 std::vector<Form> allForms() {
     std::vector<Form> forms;
     for (const SplatMode mode : {SplatMode::Flat16Aabb, SplatMode::Flat16Exact, SplatMode::Flat8Exact,
@@ -202,6 +222,13 @@ TEST_P(SplatPictures, OffCenterProjection) {
     hold(scene);
 }
 
+TEST_P(SplatPictures, Tangential) {
+    SplatScene scene = wideScene(SplatProjection::Tangential);
+    hold(scene);
+    scene.camera = orthographicCamera(double(scene.width) / scene.height);
+    hold(scene);
+}
+
 TEST_P(SplatPictures, Antialiased) {
     CloudRecipe recipe;
     recipe.smallest = 1e-3f;
@@ -219,6 +246,27 @@ TEST_P(SplatPictures, SortedByDistanceAndByRay) {
         scene.camera = orthographicCamera(double(scene.width) / scene.height);
         hold(scene);
     }
+}
+
+// The definition is a Gaussian on each splat's own tangent plane, which is none in the picture.
+TEST_P(SplatPictures, TangentialIsNearerToTangentPlanesThanPerspectiveIs) {
+    SplatScene truth = wideScene(SplatProjection::Tangential);
+    truth.exactTangents = true;
+    const std::vector<OraclePixel> oracle = oraclePicture(truth, binSizeOf(GetParam().mode));
+    const auto error = [&](SplatProjection projection) {
+        const SplatScene scene = wideScene(projection);
+        const auto pixels = draw(scene);
+        double sum = 0;
+        for (size_t i = 0; i < pixels.size(); ++i) {
+            const glm::dvec3 d = glm::abs(glm::dvec3(pixels[i].color) - oracle[i].color);
+            sum += (d.x + d.y + d.z) / (3.0 * double(pixels.size()));
+        }
+        return sum;
+    };
+    const double tangential = error(SplatProjection::Tangential),
+                 perspective = error(SplatProjection::Perspective);
+    EXPECT_LT(tangential, 0.8 * perspective);
+    std::printf("mean error %.4f tangential, %.4f perspective\n", tangential, perspective);
 }
 
 TEST_P(SplatPictures, OpaqueThingsHideWhatIsBehind) {
