@@ -2,7 +2,8 @@
 #include <array>
 #include <cmath>
 
-#include "renderer/splats/ply_rows.h"
+#include "renderer/splats/arrays.h"
+#include "renderer/splats/ply_splats.h"
 #include "renderer/splats/tidy.h"
 
 namespace hipr {
@@ -29,15 +30,6 @@ struct Layout {
     size_t columnCount = 0;
 };
 
-/// The number of a property "f_rest_<number>", or -1.
-int restNumber(const std::string& name) {
-    constexpr size_t prefix = 7;
-    if (name.compare(0, prefix, "f_rest_") != 0 || name.size() == prefix || name.size() > prefix + 3)
-        return -1;
-    if (name.find_first_not_of("0123456789", prefix) != name.npos) return -1;
-    return std::stoi(name.substr(prefix));
-}
-
 int columnOf(const std::string& name) {
     const auto known = std::find(std::begin(columnNames), std::end(columnNames), name);
     if (known != std::end(columnNames)) return int(known - std::begin(columnNames));
@@ -50,9 +42,7 @@ int columnOf(const std::string& name) {
         return std::any_of(element.properties.begin(), element.properties.end(),
                            [&](const PlyProperty& property) { return property.name == wanted; });
     };
-    const char* hint = has("packed_position") ? ": it holds packed splats, a form that is not read"
-                       : has("x")             ? ": it holds points or a mesh, no splats"
-                                              : "";
+    const char* hint = has("x") ? ": it holds points or a mesh, no splats" : "";
     throw SplatFileError("lacks the property '" + name + "' of splats" + hint);
 }
 
@@ -72,13 +62,7 @@ Layout layoutOf(const PlyElement& element) {
         if (!found[column])
             missing(element, column < Rest ? columnNames[column] : "f_rest_" + std::to_string(column - Rest));
     layout.columnCount = found.size();
-    const size_t rest = found.size() - Rest;
-    while (layout.degree < 3 && 3 * restCoefficients(layout.degree) < rest)
-        ++layout.degree;
-    if (3 * restCoefficients(layout.degree) != rest)
-        throw SplatFileError(
-            "has " + std::to_string(rest) +
-            " properties f_rest_*; spherical harmonics of degree 0 to 3 have 0, 9, 24 or 45");
+    layout.degree = degreeOfRest(found.size() - Rest);
     return layout;
 }
 
@@ -105,14 +89,6 @@ void store(const std::vector<float>& block, size_t rows, size_t first, SplatClou
     }
 }
 
-void resize(SplatCloud& cloud, size_t count) {
-    cloud.positions.resize(count);
-    cloud.orientations.resize(count);
-    cloud.scales.resize(count);
-    cloud.opacities.resize(count);
-    cloud.coefficients.resize(count * shCoefficients(cloud.shDegree));
-}
-
 /// Text where numbers of four bytes should be: 256 of them do not look like that by chance.
 void expectBinary(const PlyCursor& cursor) {
     const size_t most = std::min<size_t>(cursor.left(), 256);
@@ -123,18 +99,6 @@ void expectBinary(const PlyCursor& cursor) {
         throw SplatFileError("holds text, though its PLY header announces binary numbers");
 }
 
-void skip(const PlyElement& element, PlyFormat format, PlyCursor& cursor) {
-    expectRoomFor(element, format, cursor);
-    if (element.properties.empty()) return;
-    const std::vector<int> none(element.properties.size(), PlyRows::Skip);
-    const auto rows = plyRows(element, format, none, cursor);
-    for (uint64_t left = element.count; left > 0;) {
-        const size_t block = size_t(std::min<uint64_t>(left, blockRows));
-        rows->read(block, nullptr);
-        left -= block;
-    }
-}
-
 SplatCloud readVertices(const PlyElement& element, PlyFormat format, PlyCursor& cursor, size_t fileBytes,
                         const SplatReadOptions& options) {
     const Layout layout = layoutOf(element);
@@ -143,7 +107,7 @@ SplatCloud readVertices(const PlyElement& element, PlyFormat format, PlyCursor& 
     SplatCloud cloud;
     cloud.name = options.name;
     cloud.shDegree = layout.degree;
-    resize(cloud, size_t(element.count));
+    forEachArray(cloud, size_t(element.count), [](auto& array, size_t length) { array.resize(length); });
     const auto reader = plyRows(element, format, layout.columns, cursor);
     std::vector<float> block;
     for (size_t first = 0; first < cloud.size();) {
@@ -157,22 +121,57 @@ SplatCloud readVertices(const PlyElement& element, PlyFormat format, PlyCursor& 
     return cloud;
 }
 
+SplatCloud readNumbers(const PlyHeader& header, PlyCursor cursor, size_t fileBytes,
+                       const SplatReadOptions& options) {
+    for (const PlyElement& element : header.elements) {
+        if (element.name == "vertex") return readVertices(element, header.format, cursor, fileBytes, options);
+        skipRows(element, header.format, cursor);
+    }
+    throw SplatFileError("has no element 'vertex', which would hold the splats");
+}
+
 } // namespace
+
+int restNumber(const std::string& name) {
+    constexpr size_t prefix = 7;
+    if (name.compare(0, prefix, "f_rest_") != 0 || name.size() == prefix || name.size() > prefix + 3)
+        return -1;
+    if (name.find_first_not_of("0123456789", prefix) != name.npos) return -1;
+    return std::stoi(name.substr(prefix));
+}
+
+uint32_t degreeOfRest(size_t properties) {
+    uint32_t degree = 0;
+    while (degree < 3 && 3 * restCoefficients(degree) < properties)
+        ++degree;
+    if (3 * restCoefficients(degree) != properties)
+        throw SplatFileError(
+            "has " + std::to_string(properties) +
+            " properties f_rest_*; spherical harmonics of degree 0 to 3 have 0, 9, 24 or 45");
+    return degree;
+}
+
+void skipRows(const PlyElement& element, PlyFormat format, PlyCursor& cursor) {
+    expectRoomFor(element, format, cursor);
+    if (element.properties.empty()) return;
+    const std::vector<int> none(element.properties.size(), PlyRows::Skip);
+    const auto rows = plyRows(element, format, none, cursor);
+    for (uint64_t left = element.count; left > 0;) {
+        const size_t block = size_t(std::min<uint64_t>(left, blockRows));
+        rows->read(block, nullptr);
+        left -= block;
+    }
+}
 
 SplatCloud readPly(ByteView file, const SplatReadOptions& options) {
     const PlyHeader header = readPlyHeader(file);
     PlyCursor cursor{file.data + header.bytes, file.data + file.size};
     if (header.format != PlyFormat::Ascii) expectBinary(cursor);
-    for (const PlyElement& element : header.elements) {
-        if (element.name == "vertex") {
-            SplatCloud cloud = readVertices(element, header.format, cursor, file.size, options);
-            tidySplats(cloud, options.messages);
-            if (options.progress) options.progress(1.0);
-            return cloud;
-        }
-        skip(element, header.format, cursor);
-    }
-    throw SplatFileError("has no element 'vertex', which would hold the splats");
+    SplatCloud cloud = holdsPackedSplats(header) ? readPackedSplats(header, cursor, options)
+                                                 : readNumbers(header, cursor, file.size, options);
+    tidySplats(cloud, options.messages);
+    if (options.progress) options.progress(1.0);
+    return cloud;
 }
 
 } // namespace hipr

@@ -191,6 +191,10 @@ std::unique_ptr<PlyRows> plyRows(const PlyElement& element, PlyFormat format, co
     return std::make_unique<FixedRows>(element, format, columns, cursor);
 }
 
+uint32_t plyWord(const unsigned char* at, PlyFormat format) {
+    return load<uint32_t>(at, swapped(format));
+}
+
 void expectRoomFor(const PlyElement& element, PlyFormat format, const PlyCursor& cursor) {
     const size_t bytes = element.rowBytes(format);
     const size_t spare = format == PlyFormat::Ascii ? 1 : 0; // the last number may end the file

@@ -30,6 +30,9 @@ public:
 std::unique_ptr<PlyRows> plyRows(const PlyElement& element, PlyFormat format, const std::vector<int>& columns,
                                  PlyCursor& cursor);
 
+/// A number of four bytes in a binary file.
+uint32_t plyWord(const unsigned char* at, PlyFormat format);
+
 /// Throws unless the file may hold as many rows as the element announces.
 void expectRoomFor(const PlyElement& element, PlyFormat format, const PlyCursor& cursor);
 

@@ -1,5 +1,5 @@
 /// @file splat_file.h
-/// Captures of splats in files: 3DGS .ply (read and written) and .spz (read).
+/// Captures of splats in files: 3DGS .ply (read and written), packed .ply and .spz (read).
 ///
 /// There is no dialect of axes: positions are as the file has them. Captures in .ply usually come from
 /// photogrammetry with Y down, those in .spz have Y up.
@@ -35,8 +35,9 @@ struct SplatReadOptions {
 /// Reads 3DGS .ply as the reference implementation writes it (Kerbl et al. 2023: x y z, rot_0..3, scale_0..2,
 /// opacity, f_dc_0..2 and 0, 9, 24 or 45 of f_rest_*), binary of either byte order or text, with properties
 /// in any order and of any number type; what else it holds is skipped. Logarithms of scales and logits of
-/// opacities are undone. Splats that are no numbers are left out with one message. Whatever `file` holds,
-/// memory stays below a small multiple of its size.
+/// opacities are undone. Reads PlayCanvas' and SuperSplat's packed .ply too, in binary of either byte order.
+/// Splats that are no numbers are left out with one message. Whatever `file` holds, memory stays below a
+/// small multiple of its size.
 /// @throws SplatFileError
 SplatCloud readPly(ByteView file, const SplatReadOptions& options);
 

@@ -6,6 +6,7 @@
 
 #include <zlib.h>
 
+#include "renderer/splats/arrays.h"
 #include "renderer/splats/splat_file.h"
 #include "renderer/splats/tidy.h"
 
@@ -172,10 +173,7 @@ SplatCloud readSpz(ByteView file, const SplatReadOptions& options) {
     // Grows with what has really been read.
     eachSplat(in, header, header.positionBytes(),
               [&](size_t, const Byte* from) { cloud.positions.push_back(position(from, header)); });
-    cloud.opacities.resize(header.count);
-    cloud.scales.resize(header.count);
-    cloud.orientations.resize(header.count);
-    cloud.coefficients.resize(size_t(header.count) * coefficients);
+    forEachArray(cloud, header.count, [](auto& array, size_t length) { array.resize(length); });
     eachSplat(in, header, 1, [&](size_t i, const Byte* from) { cloud.opacities[i] = float(*from) / 255.f; });
     eachSplat(in, header, 3, [&](size_t i, const Byte* from) {
         cloud.coefficients[i * coefficients] =

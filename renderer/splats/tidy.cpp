@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/splats/arrays.h"
+
 namespace hipr {
 namespace {
 
@@ -40,11 +42,9 @@ public:
     }
 
     void resize(size_t count) {
-        _cloud.positions.resize(count);
-        if (!_cloud.orientations.empty()) _cloud.orientations.resize(count);
-        if (!_cloud.scales.empty()) _cloud.scales.resize(count);
-        if (!_cloud.opacities.empty()) _cloud.opacities.resize(count);
-        if (!_cloud.coefficients.empty()) _cloud.coefficients.resize(count * _coefficients);
+        forEachArray(_cloud, count, [](auto& array, size_t length) {
+            if (!array.empty()) array.resize(length);
+        });
     }
 
 private:

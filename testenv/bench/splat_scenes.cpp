@@ -9,6 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "renderer/scene/camera.h"
+#include "renderer/splats/arrays.h"
 #include "renderer/splats/splat_file.h"
 #include "testenv/bench/statistics.h"
 #include "testenv/common/numbers.h"
@@ -40,11 +41,7 @@ float area(const Ball& ball) {
 }
 
 void reserve(SplatCloud& cloud, size_t count) {
-    cloud.positions.reserve(count);
-    cloud.orientations.reserve(count);
-    cloud.scales.reserve(count);
-    cloud.opacities.reserve(count);
-    cloud.coefficients.reserve(count * shCoefficients(cloud.shDegree));
+    forEachArray(cloud, count, [](auto& array, size_t length) { array.reserve(length); });
 }
 
 /// The shortest turn of the z axis to `direction`.

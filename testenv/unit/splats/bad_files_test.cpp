@@ -86,14 +86,11 @@ TEST(BadPly, MissingAndRepeatedPropertiesAreNamed) {
     EXPECT_THAT(errorOf(replaced(good(), " vertex ", " vertices ")), HasSubstr("no element 'vertex'"));
 }
 
-TEST(BadPly, PointCloudsAndPackedSplatsAreToldApart) {
+TEST(BadPly, PointCloudsAreNamed) {
     EXPECT_THAT(
         errorOf("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float "
                 "z\nend_header\n1 2 3\n"),
         HasSubstr("points or a mesh"));
-    EXPECT_THAT(
-        errorOf("ply\nformat ascii 1.0\nelement vertex 1\nproperty uint packed_position\nend_header\n1\n"),
-        HasSubstr("packed splats"));
 }
 
 TEST(BadPly, WrongTypesAndFormatsAreNamed) {

@@ -1,4 +1,5 @@
 // Files damaged at random: an error or a cloud that keeps its promises, never anything else.
+#include "packed_kit.h"
 #include "spz_kit.h"
 
 namespace hipr::test {
@@ -112,6 +113,12 @@ TEST(SplatFuzz, Ply) {
         files.push_back(plyFile(columnsOf(randomCloud(5, 1)), style));
     }
     damage(files, 30000);
+}
+
+TEST(SplatFuzz, PackedPly) {
+    damage({packedFile(randomCloud(9, 0)), packedFile(randomCloud(4, 1), false),
+            packedFile(randomCloud(3, 3), true, "binary_big_endian")},
+           15000);
 }
 
 TEST(SplatFuzz, Spz) {

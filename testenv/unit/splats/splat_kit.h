@@ -138,6 +138,7 @@ inline std::string encoded(double value, const std::string& type, const std::str
 struct PlyStyle {
     std::string format = "binary_little_endian";
     std::string before = {}, bodyBefore = {}; ///< header lines and rows of elements before the vertices
+    std::string after = {}, bodyAfter = {};   ///< and behind them
     std::string listAfter = {};               ///< a property after which each row has a list of three bytes
     std::string lineEnd = "\n";
 };
@@ -150,7 +151,7 @@ inline std::string plyFile(const std::vector<Column>& columns, const PlyStyle& s
         file += "property " + column.type + " " + column.name + "\n";
         if (column.name == style.listAfter) file += "property list uchar uchar extra\n";
     }
-    file += "end_header\n";
+    file += style.after + "end_header\n";
     for (size_t at = 0; style.lineEnd != "\n" && (at = file.find('\n', at)) != file.npos; at += 2)
         file.replace(at, 1, style.lineEnd);
     file += style.bodyBefore;
@@ -163,7 +164,7 @@ inline std::string plyFile(const std::vector<Column>& columns, const PlyStyle& s
         }
         if (style.format == "ascii") file += style.lineEnd;
     }
-    return file;
+    return file + style.bodyAfter;
 }
 
 /// Equal but for what rounding does on the way through logarithms.
