@@ -7,6 +7,8 @@ namespace {
 
 /// Work on discovered tiles before the floor sets in, in frames.
 constexpr double HeadStart = 0.25;
+/// A batch of few discovered tiles is filled up with others to this share of the picture.
+constexpr double FilledBatch = 1.0 / 16;
 /// A change is seen through noise this many times as strong: it has a shape.
 constexpr float ChangeThroughNoise = 4.f;
 /// Share of the tiles beyond which a move of the camera shows nearly everywhere.
@@ -18,42 +20,44 @@ void TilePasses::restart(std::vector<uint32_t> tiles, const TileGrid& grid,
                          const std::vector<TileState>& states) {
     *this = {};
     _tiles = std::move(tiles);
-    _done = _tiles.empty() ? 0 : states[_tiles[0]].samples;
+    _at.done = _tiles.empty() ? 0 : states[_tiles[0]].samples;
     for (uint32_t tile : _tiles) {
         _pixels += grid.pixels(tile);
-        _done = std::min(_done, states[tile].samples);
+        _at.done = std::min(_at.done, states[tile].samples);
     }
 }
 
-uint32_t TilePasses::append(std::vector<gpu::TileWork>& batch, uint32_t& paths, uint32_t maxPaths,
-                            uint32_t samples, const TileGrid& grid, const std::vector<TileState>& states) {
-    const size_t before = batch.size();
-    while (!complete(samples)) {
-        if (_next == 0) {
-            const uint32_t fitting = uint32_t(std::max<uint64_t>(1, maxPaths / _pixels));
-            _level = std::min(samples, _done + std::min(fitting, std::max(1u, _done)));
-        }
-        uint32_t taken = 0;
-        for (uint32_t i = _next; i < _tiles.size(); ++i, ++taken) {
-            const TileState& state = states[_tiles[i]];
-            if (state.samples >= _level) continue;
-            const TileRect r = grid.rect(_tiles[i]);
-            const uint32_t count = _level - state.samples, added = r.width * r.height * count;
-            if (!batch.empty() && paths + added > maxPaths) break;
-            batch.push_back({r.x, r.y, r.width, r.height, state.samples, count, paths, 1, 0});
+void TilePasses::begin() {
+    _ahead = _at;
+    _any = _wrapped = false;
+}
+
+void TilePasses::startPass(uint32_t maxPaths, uint32_t samples) {
+    const uint32_t fitting = uint32_t(std::max<uint64_t>(1, maxPaths / _pixels));
+    _ahead.level = std::min(samples, _ahead.done + std::min(fitting, std::max(1u, _ahead.done)));
+}
+
+bool TilePasses::append(std::vector<gpu::TileWork>& batch, uint32_t& paths, uint32_t maxPaths,
+                        uint32_t samples, const TileGrid& grid, const std::vector<TileState>& states) {
+    while (!_tiles.empty() && _ahead.done < samples) {
+        if (_ahead.next == 0) startPass(maxPaths, samples);
+        for (; _ahead.next < _tiles.size(); ++_ahead.next) {
+            if (_wrapped && _ahead.next == _first) return false; // from here on they are in the batch
+            const uint32_t tile = _tiles[_ahead.next], has = states[tile].samples;
+            if (has >= _ahead.level) continue;
+            const TileRect r = grid.rect(tile);
+            const uint32_t count = _ahead.level - has, added = r.width * r.height * count;
+            if (!batch.empty() && paths + added > maxPaths) return false;
+            if (!_any) _first = _ahead.next;
+            _any = true;
+            batch.push_back({r.x, r.y, r.width, r.height, has, count, paths, 1, 0});
             paths += added;
         }
-        if (batch.size() > before || _next + taken < _tiles.size()) return taken;
-        advance(taken); // nobody wants samples of what is left of this pass
+        _ahead.done = _ahead.level;
+        _ahead.next = 0;
+        _wrapped = _any;
     }
-    return 0;
-}
-
-void TilePasses::advance(uint32_t tiles) {
-    _next += tiles;
-    if (_next < _tiles.size() || _tiles.empty()) return;
-    _next = 0;
-    _done = _level;
+    return true;
 }
 
 void TileSchedule::reset(const TileGrid& grid) {
@@ -166,20 +170,14 @@ bool TileSchedule::keepsOld(const TileState& state) const {
 
 const std::vector<gpu::TileWork>& TileSchedule::next(uint32_t maxPaths, uint32_t samples) {
     _work.clear();
-    _paths = _frontTaken = _restTaken = 0;
+    _paths = 0;
+    _front.begin();
+    _rest.begin();
     _owedAfter = _owed;
     _samples = samples;
     const uint32_t first = std::min(1u, samples);
-    if (!_front.complete(first)) {
-        appendFloor(maxPaths, first);
-        _frontTaken = _front.append(_work, _paths, maxPaths, first, _grid, _states);
-    } else if (!_rest.complete(first) && !_front.tiles().empty()) {
-        _restTaken = _rest.append(_work, _paths, maxPaths, first, _grid, _states);
-    } else if (!_front.complete(samples)) {
-        _frontTaken = _front.append(_work, _paths, maxPaths, samples, _grid, _states);
-    } else {
-        _restTaken = _rest.append(_work, _paths, maxPaths, samples, _grid, _states);
-    }
+    if (!_front.complete(first)) appendFloor(maxPaths, first);
+    appendInOrder(maxPaths, first);
     for (gpu::TileWork& work : _work) {
         TileState& state = _states[_grid.at(work.x, work.y)];
         if (work.firstSample == 0) state.foreseen = state.priority > 0.f;
@@ -190,14 +188,30 @@ const std::vector<gpu::TileWork>& TileSchedule::next(uint32_t maxPaths, uint32_t
     return _work;
 }
 
+/// One list after the other. What an edit changed does not wait for the other tiles in its first batch, and
+/// not for many later; nor does the first picture wait for samples beyond it.
+void TileSchedule::appendInOrder(uint32_t maxPaths, uint32_t first) {
+    const auto all = [&](TilePasses& passes, uint32_t samples, uint32_t limit) {
+        return passes.append(_work, _paths, limit, samples, _grid, _states);
+    };
+    if (!all(_front, first, maxPaths)) return;
+    if (!_work.empty()) {
+        const double enough = FilledBatch * _grid.width * _grid.height;
+        if (_pathsDone > 0) all(_rest, first, uint32_t(std::min(double(maxPaths), enough)));
+        return;
+    }
+    all(_rest, first, maxPaths);
+    if (!_work.empty()) return;
+    if (all(_front, _samples, maxPaths)) all(_rest, _samples, maxPaths);
+}
+
 /// The floor's tiles lead the batch, so that it has room for them.
 void TileSchedule::appendFloor(uint32_t maxPaths, uint32_t samples) {
     if (_rest.complete(1)) return;
     // A share of what is rendered, not of what the batch could hold: few discovered tiles make a small batch.
     _owedAfter += double(_floor) * double(std::min<uint64_t>(maxPaths, _front.pixels()));
     if (_owedAfter < _grid.tileSize * _grid.tileSize) return;
-    _restTaken =
-        _rest.append(_work, _paths, std::min(maxPaths, uint32_t(_owedAfter)), samples, _grid, _states);
+    _rest.append(_work, _paths, std::min(maxPaths, uint32_t(_owedAfter)), samples, _grid, _states);
     _owedAfter -= _paths;
 }
 
@@ -219,8 +233,8 @@ void TileSchedule::advance() {
         if (!state.keepsOld) show(state);
     }
     _pathsDone += _paths;
-    _front.advance(_frontTaken);
-    _rest.advance(_restTaken);
+    _front.accept();
+    _rest.accept();
     _owed = _owedAfter;
     if (_unsorted) sort(_everything);
 }

@@ -25,29 +25,40 @@ struct TileState {
 
 /// Brings a list of tiles to more and more samples, in order, pass after pass. The first pass takes one
 /// sample a pixel, so that a picture is there soon; later passes take as many as a batch has room for, at
-/// most doubling what is there.
+/// most doubling what is there. A batch may take the end of a pass and the beginning of the next one.
 class TilePasses {
 public:
     void restart(std::vector<uint32_t> tiles, const TileGrid& grid, const std::vector<TileState>& states);
 
     /// Whether every tile has `samples` samples.
-    bool complete(uint32_t samples) const { return _tiles.empty() || _done >= samples; }
-    uint32_t done() const { return _done; } ///< samples every tile of the list has
-    bool firstPass() const { return _done == 0; }
+    bool complete(uint32_t samples) const { return _tiles.empty() || _at.done >= samples; }
+    uint32_t done() const { return _at.done; } ///< samples every tile of the list has
     const std::vector<uint32_t>& tiles() const { return _tiles; }
     uint64_t pixels() const { return _pixels; }
 
+    /// Begins a batch; what was appended since the last accept() comes again.
+    void begin();
     /// Appends the next tiles that want samples, as long as the batch stays within `maxPaths`, but at least
-    /// one if the batch is empty. Returns how many tiles were looked at, for advance().
-    uint32_t append(std::vector<gpu::TileWork>& batch, uint32_t& paths, uint32_t maxPaths, uint32_t samples,
-                    const TileGrid& grid, const std::vector<TileState>& states);
-    void advance(uint32_t tiles);
+    /// one if the batch is empty. No tile comes twice in a batch. Returns whether that brings all to
+    /// `samples` samples.
+    bool append(std::vector<gpu::TileWork>& batch, uint32_t& paths, uint32_t maxPaths, uint32_t samples,
+                const TileGrid& grid, const std::vector<TileState>& states);
+    /// What was appended since begin() is rendered.
+    void accept() { _at = _ahead; }
 
 private:
+    struct Cursor {
+        uint32_t done = 0, level = 1; ///< samples before and after the pass under way
+        uint32_t next = 0;            ///< tile of the pass under way
+    };
+    void startPass(uint32_t maxPaths, uint32_t samples);
+
     std::vector<uint32_t> _tiles;
     uint64_t _pixels = 0;
-    uint32_t _done = 0, _level = 1; ///< samples after the pass under way
-    uint32_t _next = 0;             ///< tile of the pass under way
+    Cursor _at, _ahead;    ///< behind what is rendered, and behind what is in the batch
+    uint32_t _first = 0;   ///< position of the batch's first tile
+    bool _any = false;     ///< there is one
+    bool _wrapped = false; ///< the batch goes on in the next pass
 };
 
 /// The order of all tiles after an edit:
@@ -57,7 +68,8 @@ private:
 ///   2. The other tiles get their first sample, those whose picture is oldest leading. What samples change is
 ///      measured; tiles in which they do are discovered, and those around them.
 ///   3. Discovered tiles get the rest of their samples, then all others.
-/// Without discovered tiles this is uniform rendering.
+/// Without discovered tiles this is uniform rendering. Small batches cost more a path, so that a batch for
+/// which too few discovered tiles are left is filled up with others, but for the first one after an edit.
 ///
 /// A tile of which the edit changes nothing, or less than shows through the noise of the new samples, keeps
 /// the picture on display, so that what an edit hardly touches does not turn noisy. At the latest the new
@@ -126,6 +138,7 @@ public:
 private:
     void show(TileState& state);
     void appendFloor(uint32_t maxPaths, uint32_t samples);
+    void appendInOrder(uint32_t maxPaths, uint32_t first);
     bool keepsOld(const TileState& state) const;
 
     TileGrid _grid;
@@ -139,7 +152,7 @@ private:
     uint64_t _pathsDone = 0;
 
     std::vector<gpu::TileWork> _work; ///< handed out by next()
-    uint32_t _paths = 0, _frontTaken = 0, _restTaken = 0;
+    uint32_t _paths = 0;
     double _owedAfter = 0;
 };
 

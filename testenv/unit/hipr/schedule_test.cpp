@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "renderer/hipr/schedule.h"
@@ -41,8 +42,10 @@ TEST(TileSchedule, GivesEveryPixelEverySampleOnceInOrder) {
         while (true) {
             const std::vector<TileWork>& work = schedule.next(maxPaths, samples);
             if (work.empty()) break;
+            std::set<uint32_t> tiles; // none comes twice, for a batch adds its samples in no order
             for (const TileWork& t :
                  work) { // samples of a pixel come in order, or sums would round differently
+                EXPECT_TRUE(tiles.insert(t.x + t.y * width).second);
                 EXPECT_EQ(next[t.x + t.y * width], t.firstSample);
                 next[t.x + t.y * width] += t.sampleCount;
             }
@@ -118,10 +121,10 @@ uint32_t step(TileSchedule& schedule, uint32_t maxPaths, uint32_t samples, Chang
     return paths;
 }
 
-/// A picture of 4 x 4 tiles with all its samples, and then an edit.
-TileSchedule edited(uint32_t samples) {
+/// A picture of 64 x 64 pixels with all its samples, and then an edit.
+TileSchedule edited(uint32_t samples, uint32_t tileSize = 16) {
     TileSchedule schedule;
-    schedule.reset({64, 64, 16});
+    schedule.reset({64, 64, tileSize});
     while (!schedule.next(4096, samples).empty())
         schedule.advance();
     schedule.invalidate();
@@ -244,6 +247,38 @@ TEST(TileSchedule, AnAlmostEmptyBatchIsNotForTheFloor) {
     const std::vector<TileWork>& work = schedule.next(1 << 16, 8);
     ASSERT_EQ(work.size(), 1u);
     EXPECT_EQ(schedule.grid().at(work[0].x, work[0].y), 5u);
+}
+
+TEST(TileSchedule, ABatchIsFilledUpWithOthersWhenFewDiscoveredTilesAreLeft) {
+    constexpr uint32_t Pixels = 64; // of a tile; a sixteenth of the picture are four tiles
+    TileSchedule schedule = edited(8, 8);
+    schedule.setFloor(0.f);
+    const auto changing = [](uint32_t tile) { return tile == 5 || tile == 6 || tile == 9 ? 1.f : 0.f; };
+    for (uint32_t tile : {5u, 6u, 9u})
+        schedule.discover(tile, 1.f);
+    schedule.sort(false);
+    EXPECT_EQ(step(schedule, 2 * Pixels, 8, changing), 2 * Pixels) << "two of the three";
+    const std::vector<TileWork>& work = schedule.next(20 * Pixels, 8);
+    ASSERT_EQ(work.size(), 4u);
+    EXPECT_EQ(schedule.grid().at(work[0].x, work[0].y), 9u);
+    for (uint32_t i = 0; i < 3; ++i)
+        EXPECT_EQ(schedule.grid().at(work[1 + i].x, work[1 + i].y), i);
+    step(schedule, 20 * Pixels, 8, changing);
+    EXPECT_EQ(schedule.next(20 * Pixels, 8).size(), 20u) << "nothing discovered waits";
+}
+
+TEST(TileSchedule, LaterPassesAreOneStreamOfFullBatches) {
+    TileSchedule schedule = edited(5);
+    for (uint32_t tile : {5u, 6u, 9u})
+        schedule.discover(tile, 1.f);
+    schedule.sort(false);
+    while (schedule.samplesDone() == 0)
+        step(schedule, 7 * 256, 5,
+             [](uint32_t tile) { return tile == 5 || tile == 6 || tile == 9 ? 1.f : 0.f; });
+    uint32_t small = 0;
+    while (schedule.samplesDone() < 5)
+        small += step(schedule, 7 * 256, 5, [](uint32_t) { return 0.f; }) < 6 * 256;
+    EXPECT_LE(small, 1u) << "but for the last";
 }
 
 // In a stream of edits that all show in the same tiles the others get their share.
