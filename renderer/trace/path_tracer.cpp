@@ -37,11 +37,27 @@ void PathTracer::setup(gpu::TraceRecord record, const gpu::CameraRecord& camera,
     _device.upload(_camera, &camera, sizeof(camera));
 }
 
-/// Sizes the dispatches of the queues in `close`, then empties those in `clear`.
+/// Sizes the dispatches of the queues in `close` and empties those in `clear`. Where the host traces next it
+/// has to wait for the kernels anyway, and does this itself: a dispatch takes longer than the work.
 void PathTracer::prepare(Steps& steps, uint32_t close, uint32_t clear) {
+    if (steps.onHost()) {
+        steps.flush();
+        return prepareOnHost(close, clear);
+    }
     gpu::TraceKernelPush p = push();
     p.first = close | clear << 8;
     steps.run("prepare", [this, p](VkCommandBuffer cmd) { kernel(KernelId::Prepare).dispatch(cmd, &p, 1); });
+}
+
+void PathTracer::prepareOnHost(uint32_t close, uint32_t clear) {
+    auto* headers = _buffers.headers.mapped<gpu::QueueHeader>();
+    auto* counters = _buffers.counters.mapped<gpu::TraceCounters>();
+    for (uint32_t queue = 0; queue < gpu::QUEUE_COUNT; ++queue) {
+        if (clear & bit(queue)) headers[queue] = gpu::queueHeader(0);
+        if (!(close & bit(queue))) continue;
+        headers[queue] = gpu::queueHeader(headers[queue].count);
+        counters->rays[queue / 2] += headers[queue].count;
+    }
 }
 
 void PathTracer::dispatchQueue(Steps& steps, const char* name, const Kernel& kernel, uint32_t queue,

@@ -88,6 +88,7 @@ private:
                     const std::atomic<bool>& cancel, const Discovering& discovery);
     void raygen(Steps& steps, const std::vector<gpu::TileWork>& tiles, uint32_t paths);
     void prepare(Steps& steps, uint32_t close, uint32_t clear);
+    void prepareOnHost(uint32_t close, uint32_t clear);
     void dispatchQueue(Steps& steps, const char* name, const Kernel& kernel, uint32_t queue, uint32_t turn,
                        uint32_t first = 0);
     void discover(Steps& steps, const char* name, const Discovering& discovery, DiscoveryKernelId id,

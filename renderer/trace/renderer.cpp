@@ -267,8 +267,8 @@ void RendererImpl::count(uint32_t paths, double seconds) {
     _progress.samplesDone = _schedule.samplesDone();
     _progress.tilesDiscovered = _edits.busy() ? 0 : _schedule.discoveredTiles();
     _progress.pathsTraced += paths;
-    _progress.nearestRays += counters.nearestRays + counters.transmitRays;
-    _progress.shadowRays += counters.shadowRays;
+    _progress.nearestRays += counters.rays[0] + counters.rays[2];
+    _progress.shadowRays += counters.rays[1];
     _progress.raysTraced = _progress.nearestRays + _progress.shadowRays;
     _progress.seconds += seconds;
     _progress.fraction = double(_schedule.pathsDone()) /

@@ -6,13 +6,23 @@ HIPR_SHARED_BEGIN
 
 HIPR_CONST uint TRACE_GROUP_SIZE = 64u;
 
-// Filled by appending kernels (count) and by the `prepare` kernel (groups = ceil(count / TRACE_GROUP_SIZE)).
+// Filled by appending kernels (count) and by queueHeader().
 struct QueueHeader {
     uint count;
     uint groupsX;
     uint groupsY;
     uint groupsZ;
 };
+
+// Of a queue that holds `count` entries: sizes the dispatches of those who read it.
+HIPR_INLINE QueueHeader queueHeader(uint count) {
+    QueueHeader header;
+    header.count = count;
+    header.groupsX = (count + TRACE_GROUP_SIZE - 1u) / TRACE_GROUP_SIZE;
+    header.groupsY = 1u;
+    header.groupsZ = 1u;
+    return header;
+}
 
 // Which instances a ray sees.
 HIPR_CONST uint RAY_MASK_OPAQUE = 1u;

@@ -142,9 +142,7 @@ HIPR_CONST uint PATH_PASS_LIMIT = 256u;
 HIPR_CONST uint SHADOW_PASS_LIMIT = 256u;
 
 struct TraceCounters {
-    uint64_t nearestRays;
-    uint64_t shadowRays;
-    uint64_t transmitRays;
+    uint64_t rays[3];        // traced from ray, shadow and transmit queues: [queue / 2]
     uint nonFinite;          // dropped contributions
     uint pad;
 };

@@ -10,15 +10,10 @@ void main() {
     HeaderRef headers = HeaderRef(trace.headers);
     CountersRef counters = CountersRef(trace.counters);
     for (uint queue = 0u; queue < QUEUE_COUNT; ++queue) {
-        if ((push.first >> (8u + queue) & 1u) != 0u) headers.v[queue] = QueueHeader(0u, 0u, 1u, 1u);
+        if ((push.first >> (8u + queue) & 1u) != 0u) headers.v[queue] = queueHeader(0u);
         if ((push.first >> queue & 1u) == 0u) continue;
         const uint count = headers.v[queue].count;
-        headers.v[queue] = QueueHeader(count, (count + TRACE_GROUP_SIZE - 1u) / TRACE_GROUP_SIZE, 1u, 1u);
-        if (queue < QUEUE_SHADOW)
-            counters.v.nearestRays += count;
-        else if (queue < QUEUE_TRANSMIT)
-            counters.v.shadowRays += count;
-        else
-            counters.v.transmitRays += count;
+        headers.v[queue] = queueHeader(count);
+        counters.v.rays[queue / 2u] += count;
     }
 }

@@ -87,8 +87,7 @@ public:
 
     void setRays(const RaySet& set) {
         const uint32_t count = uint32_t(set.rays.size());
-        const gpu::QueueHeader header{count, (count + gpu::TRACE_GROUP_SIZE - 1) / gpu::TRACE_GROUP_SIZE, 1,
-                                      1};
+        const gpu::QueueHeader header = gpu::queueHeader(count);
         _occlusion = set.occlusion;
         _header = _device.createFrom(&header, 1, "queue");
         _rays = _device.createFrom(set.rays.data(), count, "queue");

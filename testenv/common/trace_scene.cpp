@@ -103,7 +103,7 @@ void TraceScene::commit() {
 void TraceScene::trace(const std::vector<gpu::Ray>& rays, uint32_t mask, bool nearest,
                        const Buffer& results) {
     const uint32_t count = uint32_t(rays.size());
-    const gpu::QueueHeader header{count, (count + gpu::TRACE_GROUP_SIZE - 1) / gpu::TRACE_GROUP_SIZE, 1, 1};
+    const gpu::QueueHeader header = gpu::queueHeader(count);
     const gpu::QueueHeader headers[2] = {{}, header}; // the second one: offsets are honoured
     const Buffer headerBuffer = _device.createFrom(headers, 2, "test");
     const Buffer rayBuffer = _device.createFrom(rays.data(), rays.size(), "test");
