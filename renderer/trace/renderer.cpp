@@ -224,14 +224,15 @@ bool RendererImpl::renderFirstHits() {
 }
 
 /// Paths of the next batch. Small at first while a few discovered tiles wait for their first sample: what
-/// matters most shows soon, and its samples tell where to go on. Each is twice as large as the one before,
-/// for small batches fill a device badly, and where an edit goes on and on, order matters less and less.
+/// matters most shows soon, and its samples tell where to go on. From the second on each is twice as large as
+/// the one before, for small batches fill a device badly, and where an edit goes on and on, order matters
+/// less and less.
 uint32_t RendererImpl::samplePaths() const {
     const bool fewWait = !_schedule.discoveredRefreshed() &&
                          _schedule.discoveredTiles() < NarrowEdit * _schedule.grid().count();
     const uint32_t some = std::max(SmallestEditBatch, uint32_t(EditBatchShare * double(_film.pixels())));
-    return fewWait ? std::min(batchPaths(), some << std::min(_batchesSinceRestart, EditBatchDoublings))
-                   : batchPaths();
+    const uint32_t doublings = std::min(std::max(_batchesSinceRestart, 1u) - 1, EditBatchDoublings);
+    return fewWait ? std::min(batchPaths(), some << doublings) : batchPaths();
 }
 
 bool RendererImpl::renderSamples() {
