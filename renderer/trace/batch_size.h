@@ -8,11 +8,12 @@
 namespace hipr {
 
 /// Steers batches towards a duration at which a host stays responsive: doubles when they are short, halves
-/// when they are long. Starts small, so that the first picture comes soon.
+/// when they are long, which one that was short and doubled is not. Starts small, so that the first picture
+/// comes soon.
 class BatchSize {
 public:
     static constexpr uint32_t Smallest = 8192, First = 8192;
-    static constexpr double Short = 0.030, Long = 0.060; ///< seconds
+    static constexpr double Short = 0.030, Long = 0.100; ///< seconds
 
     explicit BatchSize(uint32_t capacity) : _capacity(capacity), _paths(std::min(First, capacity)) {}
 

@@ -106,6 +106,19 @@ TEST(BatchSize, FollowsTheClock) {
     EXPECT_EQ(batch.paths(), hipr::BatchSize::Smallest);
 }
 
+TEST(BatchSize, FindsItsSizeForAnySpeedAndKeepsIt) {
+    for (double perPath = 1e-7; perPath < 1e-5; perPath *= 1.1) {
+        hipr::BatchSize batch(1 << 16);
+        for (int i = 0; i < 10; ++i)
+            batch.report(batch.paths(), perPath * batch.paths());
+        const uint32_t found = batch.paths();
+        for (double slower : {1.2, 1.6, 1.0, 1.4}) {
+            batch.report(batch.paths(), slower * perPath * batch.paths());
+            EXPECT_EQ(batch.paths(), found) << perPath << " s a path";
+        }
+    }
+}
+
 namespace {
 
 /// Renders the next batch; `change` tells what the first samples of a tile change. Their noise is 1.
