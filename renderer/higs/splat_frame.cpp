@@ -197,6 +197,7 @@ void SplatBuffers::prepare(SplatMode mode, gpu::SplatFrame& f) {
     f.placements = reserve(placements, f.placementCount * sizeof(gpu::SplatPlacement));
     f.blocks = blocks.address();
     f.splats = reserve(splats, f.splatCount * splatBytes);
+    f.reaches = reserve(reaches, f.splatCount * sizeof(gpu::SplatReach));
     f.rays = sortedByRay ? reserve(rays, f.splatCount * sizeof(gpu::SplatRay)) : 0;
     f.histogram = reserve(histogram, histogramBytes(f));
     f.tiles = reserve(tiles, tileCount * sizeof(gpu::SplatTile));

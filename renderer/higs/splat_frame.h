@@ -57,10 +57,10 @@ public:
     uint64_t histogramBytes(const gpu::SplatFrame& frame) const;
 
     GrowingBuffer placements{"splat frame"}, blocks{"splat frame"}, splats{"splat frame"},
-        rays{"splat frame"}, histogram{"splat frame"}, tiles{"splat frame"}, tileMask{"splat frame"},
-        masks{"splat lists"}, partials{"splat partial pictures"}, pixels{"splat pixels"},
-        emptied{"splat frame"}, state{"splat frame"}, camera{"splat frame"}, blends{"splat frame"},
-        frame{"splat frame"};
+        reaches{"splat frame"}, rays{"splat frame"}, histogram{"splat frame"}, tiles{"splat frame"},
+        tileMask{"splat frame"}, masks{"splat lists"}, partials{"splat partial pictures"},
+        pixels{"splat pixels"}, emptied{"splat frame"}, state{"splat frame"}, camera{"splat frame"},
+        blends{"splat frame"}, frame{"splat frame"};
     GrowingBuffer pairs[2] = {{"splat lists"}, {"splat lists"}};
     GrowingBuffer tilePairs[2] = {{"splat lists"}, {"splat lists"}};
 

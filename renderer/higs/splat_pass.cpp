@@ -204,10 +204,10 @@ std::vector<SplatPass::Impl::Step> SplatPass::Impl::steps(bool again) const {
         add("scan", &SplatStages::scan);
         add("fill", &SplatStages::fill);
         add("sort", &SplatStages::sort);
-        if (!isFlat(mode())) add("masks", &SplatStages::masks);
+        if (stages.masksApart()) add("masks", &SplatStages::masks);
     }
     if (mode() == SplatMode::Higs8) add("partial", &SplatStages::partials);
-    constexpr uint32_t Band = 16;
+    constexpr uint32_t Band = 16; // whole macro-tiles
     for (uint32_t row = 0; row < stages.pixelRows(); row += Band) {
         const uint32_t rows = std::min(Band, stages.pixelRows() - row);
         const char* const name = mode() == SplatMode::Higs8 ? "compose" : "raster";

@@ -42,7 +42,7 @@ struct SplatPassOptions {
     SplatKernels kernels = SplatKernels::Automatic;
     SplatMode mode = SplatMode::Automatic; ///< to begin with; its kernels are compiled at once
     bool halfRecords =
-        false; ///< conics and colours of projected splats in half precision: 32 instead of 48 bytes
+        false; ///< conics and colours of projected splats in half precision: 40 instead of 48 bytes
 };
 
 /// A camera and the part of its picture to draw, in pixels; rows count from the lower end, as CameraRecord's.

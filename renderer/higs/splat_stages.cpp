@@ -164,8 +164,15 @@ void SplatStages::partials(VkCommandBuffer cmd) const {
 void SplatStages::dispatchPixels(VkCommandBuffer cmd, SplatKernel kernel, uint32_t first, uint32_t rows,
                                  bool lanes) const {
     const gpu::SplatPush push{_buffers.frame.address(), first, 0};
-    const uint32_t pixels = lanes ? 64 : 8; // that a workgroup draws of a row
-    _kernels[kernel].dispatch(cmd, &push, (_frame.width + pixels - 1) / pixels, rows);
+    const uint32_t tiles = lanes ? gpu::SPLAT_LANES_TILES : 1; // that a workgroup draws
+    if (isFlat(_mode)) {
+        const uint32_t pixels = tiles * gpu::SPLAT_TILE;
+        return _kernels[kernel].dispatch(cmd, &push, (_frame.width + pixels - 1) / pixels, rows);
+    }
+    constexpr uint32_t Columns = gpu::SPLAT_MACRO_WIDTH / gpu::SPLAT_TILE,
+                       Rows = gpu::SPLAT_MACRO_HEIGHT / gpu::SPLAT_TILE;
+    _kernels[kernel].dispatch(cmd, &push, _frame.tileColumns * (Columns * Rows / tiles),
+                              (rows + Rows - 1) / Rows);
 }
 
 void SplatStages::raster(VkCommandBuffer cmd, uint32_t first, uint32_t rows) const {
@@ -177,9 +184,9 @@ void SplatStages::tally(VkCommandBuffer cmd, uint32_t batches) const {
     computeBarrier(cmd);
     if (isFlat(_mode)) return dispatchPixels(cmd, SplatKernel::FlatTally, 0, pixelRows(), true);
     if (_mode == SplatMode::Higs8Carry) return dispatchPixels(cmd, SplatKernel::Tally, 0, pixelRows(), true);
-    // Kernels that tally are in lanes: four workgroups draw a batch.
+    // Kernels that tally are in lanes: a workgroup draws a batch.
     const gpu::SplatPush push{_buffers.frame.address(), 0, 0};
-    if (batches) _kernels[SplatKernel::TallyPartial].dispatch(cmd, &push, 4, std::min(batches, 65535u));
+    if (batches) _kernels[SplatKernel::TallyPartial].dispatch(cmd, &push, 1, std::min(batches, 65535u));
 }
 
 gpu::SplatState SplatStages::state() const {

@@ -36,12 +36,15 @@ public:
     void scan(VkCommandBuffer cmd) const;
     void fill(VkCommandBuffer cmd) const;
     void sort(VkCommandBuffer cmd) const;
+    /// Whether masks() is due: in lanes raster() makes them itself, but in mode higs8.
+    bool masksApart() const { return _mode == SplatMode::Higs8 || (!isFlat(_mode) && !_kernels.lanes()); }
     void masks(VkCommandBuffer cmd) const;
     /// Mode higs8: the batches' partial pictures, which raster() composes.
     void partials(VkCommandBuffer cmd) const;
     /// Counts what raster() blends, or partials(), into buffers().blends; `batches`: as state() says.
     void tally(VkCommandBuffer cmd, uint32_t batches) const;
-    /// Rows of 8 pixels from `first` on.
+    /// Rows of 8 pixels from `first` on; in modes with macro-tiles both are multiples of a macro-tile's four,
+    /// or the end.
     void raster(VkCommandBuffer cmd, uint32_t first, uint32_t rows) const;
     uint32_t pixelRows() const { return (_frame.height + gpu::SPLAT_TILE - 1) / gpu::SPLAT_TILE; }
 

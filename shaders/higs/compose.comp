@@ -19,8 +19,7 @@ bool addBatch(SplatFrame frame, uint batch, uint renderTile, inout Column column
 
 void main() {
     const SplatFrame frame = FrameRef(push.frame).v;
-    const uvec2 group = uvec2(gl_WorkGroupID.x, push.first + gl_WorkGroupID.y);
-    const uvec2 corner = uvec2(group.x * TILES_PER_GROUP + tileInGroup(), group.y) * SPLAT_TILE;
+    const uvec2 corner = renderTileCorner();
     const uvec2 inTiles = corner / uvec2(frame.tileWidth, frame.tileHeight);
     if (corner.x >= frame.width || corner.y >= frame.height) return;
     const uint index = inTiles.y * frame.tileColumns + inTiles.x;
@@ -28,6 +27,7 @@ void main() {
     const SplatTile tile = TileRef(frame.tiles).v[index];
     if (!mustWrite(frame, corner, tile.count == 0u)) return;
     const uvec2 pixel = corner + pixelInTile();
+    const uint64_t pairs = sortedPairs(frame, tile.side);
     const uint renderTile = renderTileOf(corner), batches = (tile.count + SPLAT_BATCH - 1u) / SPLAT_BATCH;
     Column column = emptyColumn(frame, pixel);
     for (uint i = 0u; i < batches; ++i) {
@@ -35,7 +35,7 @@ void main() {
         const bool crossed = addBatch(frame, tile.firstBatch + i, renderTile, column);
         if (largestOfTile(crossed ? 1.0 : 0.0) > 0.0) {
             const uint skipped = i * SPLAT_BATCH;
-            blendHits(frame, tile.side, tile.first + skipped, min(tile.count - skipped, SPLAT_BATCH), renderTile,
+            blendHits(frame, pairs, tile.first + skipped, min(tile.count - skipped, SPLAT_BATCH), renderTile,
                       vec2(pixel) + 0.5, walk);
             column.median = walk.median;
         }

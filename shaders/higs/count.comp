@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "higs/bin_all.glsl"
 
-void visit(SplatFrame frame, uint chunk, uint tile, uint splat, ProjectedSplat s) {
+void visit(SplatFrame frame, uint chunk, uint tile, uint splat, float key) {
     WordRef histogram = WordRef(frame.histogram);
 #ifdef LANES
     histogram.v[chunk * frame.tileColumns * frame.tileRows + tile] += 1u;

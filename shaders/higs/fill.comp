@@ -5,7 +5,7 @@
 #include "higs/bin_all.glsl"
 #include "higs/ray_hit.glsl"
 
-void visit(SplatFrame frame, uint chunk, uint tile, uint splat, ProjectedSplat s) {
+void visit(SplatFrame frame, uint chunk, uint tile, uint splat, float key) {
     if (WordRef(frame.tileMask).v[tile] == 0u) return;
     WordRef histogram = WordRef(frame.histogram);
 #ifdef LANES
@@ -15,7 +15,6 @@ void visit(SplatFrame frame, uint chunk, uint tile, uint splat, ProjectedSplat s
 #else
     const uint slot = atomicAdd(histogram.v[tile], 1u);
 #endif
-    float key = s.key;
     if (frame.rays != 0ul) key = rayHitDistance(frame, tile, splat);
     PairRef(frame.pairs[0]).v[TileRef(frame.tiles).v[tile].first + slot] =
         packPair(floatBitsToUint(key), splat);

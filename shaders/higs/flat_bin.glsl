@@ -8,7 +8,8 @@ layout(local_size_x = 8) in;
 
 // Tiles that meet a square around the splat of 3 standard deviations along the ellipse's longer axis (3DGS).
 void visitSquare(SplatFrame frame, uint chunk, uint splat) {
-    if (!(loadBias(frame, splat) < SPLAT_SIGMA_LIMIT)) return;
+    const SplatReach reach = loadReach(frame, splat);
+    if (reach.tiles == 0u) return;
     const ProjectedSplat s = loadSplat(frame, splat);
     const vec3 l = s.shape / sqrt(0.5 * LOG2_E); // Cholesky factor of the inverse covariance
     const float yy = 1.0 / (l.z * l.z), determinant_ = yy / (l.x * l.x);
@@ -18,7 +19,7 @@ void visitSquare(SplatFrame frame, uint chunk, uint splat) {
     const uvec2 columns = tilesOfSpan(s.mean.x - radius, s.mean.x + radius, float(frame.tileWidth), 0u, frame.tileColumns);
     for (uint row = rows.x; row < rows.y; ++row)
         for (uint column = columns.x; column < columns.y; ++column)
-            visit(frame, chunk, row * frame.tileColumns + column, splat, s);
+            visit(frame, chunk, row * frame.tileColumns + column, splat, reach.key);
 }
 
 void visitChunk(SplatFrame frame, uint chunk) {

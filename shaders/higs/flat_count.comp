@@ -5,7 +5,7 @@
 
 uint pairs = 0u;
 
-void visit(SplatFrame frame, uint chunk, uint tile, uint splat, ProjectedSplat s) { ++pairs; }
+void visit(SplatFrame frame, uint chunk, uint tile, uint splat, float key) { ++pairs; }
 
 void main() {
     const SplatFrame frame = FrameRef(push.frame).v;

@@ -6,8 +6,8 @@
 
 uint place = 0u;
 
-void visit(SplatFrame frame, uint chunk, uint tile, uint splat, ProjectedSplat s) {
-    const float key = frame.rays != 0ul ? rayHitDistance(frame, tile, splat) : s.key;
+void visit(SplatFrame frame, uint chunk, uint tile, uint splat, float key) {
+    if (frame.rays != 0ul) key = rayHitDistance(frame, tile, splat);
     TilePairRef(frame.tilePairs[0]).v[place] = SplatTilePair(floatBitsToUint(key), splat, tile);
     ++place;
 }

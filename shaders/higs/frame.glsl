@@ -34,45 +34,47 @@ void storePair(uint64_t address, uint i, vec2 v) { DoubleRef(address).v[i] = pac
 
 #ifdef HALF_RECORDS
 ProjectedSplat loadSplat(SplatFrame frame, uint i) {
-    const vec2 mean = loadPair(frame.splats, 4u * i), depthKey = loadPair(frame.splats, 4u * i + 1u);
-    const uvec2 shape = unpackUint2x32(DoubleRef(frame.splats).v[4u * i + 2u]);
-    const uvec2 color = unpackUint2x32(DoubleRef(frame.splats).v[4u * i + 3u]);
+    const uvec2 shape = unpackUint2x32(DoubleRef(frame.splats).v[4u * i + 1u]);
+    const uvec2 color = unpackUint2x32(DoubleRef(frame.splats).v[4u * i + 2u]);
     const vec2 shapeZBias = unpackHalf2x16(shape.y);
-    return ProjectedSplat(mean, vec3(unpackHalf2x16(shape.x), shapeZBias.x), shapeZBias.y,
-                          vec3(unpackHalf2x16(color.x), unpackHalf2x16(color.y).x), depthKey.x, depthKey.y, 0u);
+    return ProjectedSplat(loadPair(frame.splats, 4u * i), vec3(unpackHalf2x16(shape.x), shapeZBias.x), shapeZBias.y,
+                          vec3(unpackHalf2x16(color.x), unpackHalf2x16(color.y).x), loadPair(frame.splats, 4u * i + 3u).x);
 }
 
 void storeSplat(SplatFrame frame, uint i, ProjectedSplat s) {
     // Beyond halves' largest value there is nothing to tell apart, and infinities would make colours undefined.
     const vec3 color = min(s.color, vec3(65504.0));
     storePair(frame.splats, 4u * i, s.mean);
-    storePair(frame.splats, 4u * i + 1u, vec2(s.depth, s.key));
-    DoubleRef(frame.splats).v[4u * i + 2u] =
+    DoubleRef(frame.splats).v[4u * i + 1u] =
         packUint2x32(uvec2(packHalf2x16(s.shape.xy), packHalf2x16(vec2(s.shape.z, s.bias))));
-    DoubleRef(frame.splats).v[4u * i + 3u] =
+    DoubleRef(frame.splats).v[4u * i + 2u] =
         packUint2x32(uvec2(packHalf2x16(color.rg), packHalf2x16(vec2(color.b, 0.0))));
+    storePair(frame.splats, 4u * i + 3u, vec2(s.depth, 0.0));
 }
-
-float loadBias(SplatFrame frame, uint i) { return unpackHalf2x16(WordRef(frame.splats).v[8u * i + 5u]).y; }
 #else
 ProjectedSplat loadSplat(SplatFrame frame, uint i) {
-    const vec2 shapeXY = loadPair(frame.splats, 6u * i + 1u), shapeZBias = loadPair(frame.splats, 6u * i + 2u);
-    const vec2 colorRG = loadPair(frame.splats, 6u * i + 3u), colorBDepth = loadPair(frame.splats, 6u * i + 4u);
-    return ProjectedSplat(loadPair(frame.splats, 6u * i), vec3(shapeXY, shapeZBias.x), shapeZBias.y,
-                          vec3(colorRG, colorBDepth.x), colorBDepth.y, loadPair(frame.splats, 6u * i + 5u).x, 0u);
+    const vec2 shapeXY = loadPair(frame.splats, 5u * i + 1u), shapeZBias = loadPair(frame.splats, 5u * i + 2u);
+    const vec2 colorRG = loadPair(frame.splats, 5u * i + 3u), colorBDepth = loadPair(frame.splats, 5u * i + 4u);
+    return ProjectedSplat(loadPair(frame.splats, 5u * i), vec3(shapeXY, shapeZBias.x), shapeZBias.y,
+                          vec3(colorRG, colorBDepth.x), colorBDepth.y);
 }
 
 void storeSplat(SplatFrame frame, uint i, ProjectedSplat s) {
-    storePair(frame.splats, 6u * i, s.mean);
-    storePair(frame.splats, 6u * i + 1u, s.shape.xy);
-    storePair(frame.splats, 6u * i + 2u, vec2(s.shape.z, s.bias));
-    storePair(frame.splats, 6u * i + 3u, s.color.rg);
-    storePair(frame.splats, 6u * i + 4u, vec2(s.color.b, s.depth));
-    storePair(frame.splats, 6u * i + 5u, vec2(s.key, 0.0));
+    storePair(frame.splats, 5u * i, s.mean);
+    storePair(frame.splats, 5u * i + 1u, s.shape.xy);
+    storePair(frame.splats, 5u * i + 2u, vec2(s.shape.z, s.bias));
+    storePair(frame.splats, 5u * i + 3u, s.color.rg);
+    storePair(frame.splats, 5u * i + 4u, vec2(s.color.b, s.depth));
 }
-
-float loadBias(SplatFrame frame, uint i) { return FloatRef(frame.splats).v[12u * i + 5u]; }
 #endif
+
+SplatReach loadReach(SplatFrame frame, uint i) {
+    const uvec2 words = unpackUint2x32(DoubleRef(frame.reaches).v[i]);
+    return SplatReach(words.x, uintBitsToFloat(words.y));
+}
+void storeReach(SplatFrame frame, uint i, SplatReach reach) {
+    DoubleRef(frame.reaches).v[i] = packUint2x32(uvec2(reach.tiles, floatBitsToUint(reach.key)));
+}
 
 // A pixel, and a batch's part of one, in memory.
 void storePixel(SplatFrame frame, uint i, SplatPixel pixel) {
@@ -102,12 +104,21 @@ uint workgroupIndex() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGr
 // (gl_WorkGroupSize is not known where this is declared.)
 uint invocationIndex(uint groupSize) { return workgroupIndex() * groupSize + gl_LocalInvocationIndex; }
 
-// The splat of a pair in a sorted list.
-uint pairSplat(SplatFrame frame, uint side, uint pair) {
+// Where a tile's sorted list is.
+uint64_t sortedPairs(SplatFrame frame, uint side) {
 #ifdef FLAT
-    return TilePairRef(frame.tilePairs[side]).v[pair].splat;
+    return frame.tilePairs[side];
 #else
-    return WordRef(frame.pairs[side]).v[2u * pair];
+    return frame.pairs[side];
+#endif
+}
+
+// The splat of a pair in a sorted list.
+uint pairSplat(uint64_t pairs, uint pair) {
+#ifdef FLAT
+    return TilePairRef(pairs).v[pair].splat;
+#else
+    return WordRef(pairs).v[2u * pair];
 #endif
 }
 

@@ -17,7 +17,7 @@ void main() {
     const uvec2 pixel = corner + pixelInTile();
     const uint skipped = (batch - tile.firstBatch) * SPLAT_BATCH;
     Column column = emptyColumn(frame, pixel);
-    blendHits(frame, tile.side, tile.first + skipped, min(tile.count - skipped, SPLAT_BATCH), renderTile,
+    blendHits(frame, sortedPairs(frame, tile.side), tile.first + skipped, min(tile.count - skipped, SPLAT_BATCH), renderTile,
               vec2(pixel) + 0.5, column);
 #ifdef TALLY
     atomicAdd(Uvec2Ref(frame.blends).v[index].x, column.blends.x);

@@ -3,13 +3,12 @@
 #extension GL_GOOGLE_include_directive : require
 #include "color/srgb.glsl"
 #include "higs/harmonics.glsl"
+#include "higs/spans.glsl"
 
 layout(local_size_x = 256) in;
 
-vec3 rotate(vec4 q, vec3 v) {
-    const vec3 t = 2.0 * cross(q.xyz, v);
-    return v + q.w * t + cross(q.xyz, t);
-}
+// Two numbers of 16 bits with sign.
+vec2 unpackShorts(uint word) { return vec2(int(word << 16u) >> 16, int(word) >> 16); }
 
 struct Shape {
     vec3 axes[3]; // object space, as long as the standard deviations
@@ -19,12 +18,15 @@ struct Shape {
 Shape loadShape(SplatArrays arrays, uint i) {
     const uvec4 words = uvec4(unpackUint2x32(DoubleRef(arrays.shapes).v[2u * i]),
                               unpackUint2x32(DoubleRef(arrays.shapes).v[2u * i + 1u]));
-    const vec4 q = normalize(vec4(unpackSnorm2x16(words.x), unpackSnorm2x16(words.y)));
+    // Its length, and so the unit of its numbers, does not matter: `two` makes up for it.
+    const vec4 q = vec4(unpackShorts(words.x), unpackShorts(words.y));
+    const float two = 2.0 / dot(q, q);
+    const vec3 squares = two * q.xyz * q.xyz, mixed = two * q.xyx * q.yzz, turn = two * q.w * q.xyz; // xy, yz, xz
     const vec3 scale = arrays.scaleUnit * vec3(unpackHalf2x16(words.z), unpackHalf2x16(words.w).x);
     Shape shape;
-    shape.axes[0] = rotate(q, vec3(scale.x, 0.0, 0.0));
-    shape.axes[1] = rotate(q, vec3(0.0, scale.y, 0.0));
-    shape.axes[2] = rotate(q, vec3(0.0, 0.0, scale.z));
+    shape.axes[0] = scale.x * vec3(1.0 - squares.y - squares.z, mixed.x + turn.z, mixed.z - turn.y);
+    shape.axes[1] = scale.y * vec3(mixed.x - turn.z, 1.0 - squares.x - squares.z, mixed.y + turn.x);
+    shape.axes[2] = scale.z * vec3(mixed.z + turn.y, mixed.y - turn.x, 1.0 - squares.x - squares.y);
     shape.opacity = unpackUnorm2x16(words.w).y;
     return shape;
 }
@@ -106,8 +108,7 @@ bool projectShape(SplatFrame frame, SplatPlacement placement, Shape shape, vec4 
     return s.bias < SPLAT_SIGMA_LIMIT && determinant_ < 1e30 && s.shape.x > 0.0;
 }
 
-bool meetsCrop(SplatFrame frame, ProjectedSplat s) {
-    const SplatEllipse e = splatEllipse(s.mean, s.shape, splatReach(s.bias));
+bool meetsCrop(SplatFrame frame, SplatEllipse e) {
     return all(greaterThan(e.mean + e.half_, vec2(frame.cropLo))) && all(lessThan(e.mean - e.half_, vec2(frame.cropHi)));
 }
 
@@ -120,23 +121,26 @@ void main() {
     const uint local = source.first + gl_LocalInvocationIndex, i = placement.first + local;
     if (local >= placement.arrays.count) return;
 
-    ProjectedSplat s = ProjectedSplat(vec2(0.0), vec3(1.0), SPLAT_SIGMA_LIMIT, vec3(0.0), 0.0, 0.0, 0u);
+    ProjectedSplat s = ProjectedSplat(vec2(0.0), vec3(1.0), SPLAT_SIGMA_LIMIT, vec3(0.0), 0.0);
     const Shape shape = loadShape(placement.arrays, local);
     const vec4 p = vec4(Vec3Ref(placement.arrays.positions).v[local], 1.0);
     s.depth = dot(placement.depth, p);
     const bool shown = (placement.flags & SPLATS_HIDDEN) == 0u && shape.opacity > 0.0 && dot(placement.clipW, p) > 0.0 &&
-                       s.depth >= frame.nearDepth && s.depth <= frame.farDepth;
-    if (!shown || !projectShape(frame, placement, shape, p, s) || !meetsCrop(frame, s)) {
-        s.bias = SPLAT_SIGMA_LIMIT;
-        storeSplat(frame, i, s);
+                       s.depth >= frame.nearDepth && s.depth <= frame.farDepth && projectShape(frame, placement, shape, p, s);
+    const SplatEllipse e = splatEllipse(s.mean, s.shape, splatReach(s.bias));
+    if (!shown || !meetsCrop(frame, e)) {
+        storeReach(frame, i, SplatReach(0u, 0.0));
         return;
     }
     const bool parallel = (frame.flags & FRAME_PARALLEL) != 0u;
     const vec3 towards = p.xyz - placement.eye, relative = toWorld(placement, towards);
     s.color = splatColor(placement.arrays, local, normalize(parallel ? placement.direction : towards));
     if ((frame.flags & FRAME_SRGB) != 0u) s.color = decodeSrgb(s.color);
-    s.key = max(parallel || frame.sorting == SORT_Z_DEPTH ? s.depth : length(relative), 0.0);
     storeSplat(frame, i, s);
+    const float key = max(parallel || frame.sorting == SORT_Z_DEPTH ? s.depth : length(relative), 0.0);
+    // Squares are not listed: their tiles are those of another shape.
+    const bool squares = (frame.flags & FRAME_SQUARES) != 0u;
+    storeReach(frame, i, SplatReach(squares ? SPLAT_FAR : tilesOf(frame, e), key));
     if (frame.rays != 0ul)
         RayRef(frame.rays).v[i] = rayOf(toWorld(placement, shape.axes[0]), toWorld(placement, shape.axes[1]),
                                         toWorld(placement, shape.axes[2]), relative);

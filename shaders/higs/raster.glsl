@@ -4,13 +4,14 @@
 #define HIPR_HIGS_RASTER_GLSL
 #include "higs/frame.glsl"
 
+uint tileInGroup();            // which of TILES_PER_GROUP
 uvec2 pixelInTile();           // of the column's first pixel
 float largestOfTile(float v); // of all columns of the tile; not negative
 
 struct Column {
     float transmittance[HEIGHT];
     vec3 color[HEIGHT];
-    uint median[HEIGHT]; // the splat that found a transmittance of 1/2 or more and was the last to do so
+    uint median[HEIGHT]; // the last splat that found a transmittance of 1/2 or more
 #ifdef LIMITED
     float limit[HEIGHT]; // camera depth of what is opaque
 #endif
@@ -42,42 +43,41 @@ float largestTransmittance(Column column) {
     return largest;
 }
 
-// 2^-sigma for sigma in [0, 8): a polynomial for 2^(-sigma / 8), fitted to a relative error of 3e-6, squared three times.
-float alphaOf(float sigma) {
-    float p = fma(sigma, fma(sigma, fma(sigma, fma(sigma, 1.66794227e-6, -1.03952289e-4), 3.74151158e-3), -8.66329461e-2), 1.0);
-    p *= p;
-    p *= p;
-    return p * p;
-}
-
-// `d`: from the splat's mean to the middle of the column's first pixel. Along the column sigma is a quadratic polynomial.
-// There are no branches: where half the rows are touched, as in tiles of this size, they cost a CPU more than they save.
-void blend(inout Column column, vec2 d, vec3 shape, float bias, vec3 color, float depth, uint splat) {
-    const float u = fma(shape.x, d.x, shape.y * d.y), v = shape.z * d.y;
-    const float start = fma(u, u, fma(v, v, bias)), slope = 2.0 * fma(shape.y, u, shape.z * v);
-    const float curve = fma(shape.y, shape.y, shape.z * shape.z);
-    [[unroll]] for (uint y = 0u; y < HEIGHT; ++y) {
-        const float sigma = fma(float(y), fma(float(y), curve, slope), start);
+// Blends a splat into a row of the column that it touches, if it does. There are no branches: where half the rows are
+// touched, as in tiles of this size, they cost a CPU more than they save.
+void blendPixel(inout Column column, uint y, bool touched, float alpha, vec3 color, float depth, uint splat) {
 #ifdef LIMITED
-        const bool touched = sigma < SPLAT_SIGMA_LIMIT && depth <= column.limit[y];
-#else
-        const bool touched = sigma < SPLAT_SIGMA_LIMIT;
+    touched = touched && depth <= column.limit[y];
 #endif
 #ifdef TALLY
-        ++column.blends.x;
-        if (touched) ++column.blends.y;
+    ++column.blends.x;
+    if (touched) ++column.blends.y;
 #endif
-        const float t = column.transmittance[y], weight = touched ? alphaOf(sigma) * t : 0.0;
-        column.color[y] = fma(vec3(weight), color, column.color[y]);
-        column.median[y] = touched && t >= 0.5 ? splat : column.median[y];
-        column.transmittance[y] = t - weight;
-    }
+    const float t = column.transmittance[y], weight = touched ? alpha * t : 0.0;
+    column.color[y] = fma(vec3(weight), color, column.color[y]);
+    column.median[y] = t >= 0.5 ? splat : column.median[y];
+    column.transmittance[y] = t - weight;
+}
+
+const uint MACRO_COLUMNS = SPLAT_MACRO_WIDTH / SPLAT_TILE, MACRO_ROWS = SPLAT_MACRO_HEIGHT / SPLAT_TILE;
+
+// The first pixel of the render tile that this invocation draws. push.first: of the first row of render tiles to draw.
+// Workgroups go along rows of render tiles; or, where lists belong to macro-tiles, through one macro-tile after the other.
+uvec2 renderTileCorner() {
+    const uint tile = gl_WorkGroupID.x * TILES_PER_GROUP + tileInGroup();
+#ifdef FLAT
+    return uvec2(tile, push.first + gl_WorkGroupID.y) * SPLAT_TILE;
+#else
+    const uvec2 macro = uvec2(tile / (MACRO_COLUMNS * MACRO_ROWS), push.first / MACRO_ROWS + gl_WorkGroupID.y);
+    const uvec2 within = uvec2(tile % MACRO_COLUMNS, tile / MACRO_COLUMNS % MACRO_ROWS);
+    return (macro * uvec2(MACRO_COLUMNS, MACRO_ROWS) + within) * SPLAT_TILE;
+#endif
 }
 
 // Number of a render tile in its macro-tile.
 uint renderTileOf(uvec2 corner) {
-    const uvec2 within = corner % uvec2(SPLAT_MACRO_WIDTH, SPLAT_MACRO_HEIGHT) / SPLAT_TILE;
-    return within.y * (SPLAT_MACRO_WIDTH / SPLAT_TILE) + within.x;
+    const uvec2 within = corner / SPLAT_TILE % uvec2(MACRO_COLUMNS, MACRO_ROWS);
+    return within.y * MACRO_COLUMNS + within.x;
 }
 
 uint partialOf(uint batch, uint renderTile, uvec2 pixel) {
@@ -87,11 +87,11 @@ uint partialOf(uint batch, uint renderTile, uvec2 pixel) {
 // The placement a splat belongs to.
 uint placementOf(SplatFrame frame, uint splat) {
     uint first = 0u, end = frame.placementCount;
-    while (end - first > 1u) {
+    if (end > 1u) do {
         const uint middle = (first + end) / 2u;
         if (PlacementRef(frame.placements).v[middle].first <= splat) first = middle;
         else end = middle;
-    }
+    } while (end - first > 1u);
     return first;
 }
 

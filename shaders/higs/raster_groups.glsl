@@ -2,12 +2,12 @@
 // up to 64 at a time; places in the queue follow from the masks' bits, so that no subgroup operation is needed.
 #ifndef HIPR_HIGS_RASTER_GROUPS_GLSL
 #define HIPR_HIGS_RASTER_GROUPS_GLSL
-const uint HEIGHT = 1u;
+const uint HEIGHT = 1u, TILES_PER_GROUP = 1u;
 #include "higs/raster.glsl"
 
 layout(local_size_x = 64) in;
 
-const uint TILES_PER_GROUP = 1u, DRAIN = 64u;
+const uint DRAIN = 64u;
 
 shared uint queue[2u * DRAIN];
 shared ProjectedSplat staged[DRAIN];
@@ -33,11 +33,14 @@ void drain(SplatFrame frame, uint count, vec2 center, inout Column column) {
     barrier();
     for (uint i = 0u; i < count; ++i) {
         const ProjectedSplat s = staged[i];
-        blend(column, center - s.mean, s.shape, s.bias, s.color, s.depth, queue[i]);
+        const vec2 d = center - s.mean;
+        const float u = fma(s.shape.x, d.x, s.shape.y * d.y), v = s.shape.z * d.y;
+        const float alpha = exp2(-fma(u, u, fma(v, v, s.bias)));
+        blendPixel(column, 0u, alpha >= SPLAT_LEAST_ALPHA, alpha, s.color, s.depth, queue[i]);
     }
 }
 
-void blendHits(SplatFrame frame, uint side, uint first, uint count, uint tile, vec2 center, inout Column column) {
+void blendHits(SplatFrame frame, uint64_t pairs, uint first, uint count, uint tile, vec2 center, inout Column column) {
     WordRef masks = WordRef(frame.masks);
     const uint own = gl_LocalInvocationIndex;
     uint queued = 0u;
@@ -48,7 +51,7 @@ void blendHits(SplatFrame frame, uint side, uint first, uint count, uint tile, v
         const uint place = own < 32u ? bitCount(low & below) : bitCount(low) + bitCount(high & below);
         barrier(); // nobody reads the queue any more
         if ((((own < 32u ? low : high) >> (own % 32u)) & 1u) != 0u)
-            queue[queued + place] = pairSplat(frame, side, first + base + own);
+            queue[queued + place] = pairSplat(pairs, first + base + own);
         queued += uint(bitCount(low) + bitCount(high));
         const bool last = base + DRAIN >= count;
         if (queued < DRAIN && !last) continue;
@@ -63,11 +66,11 @@ void blendHits(SplatFrame frame, uint side, uint first, uint count, uint tile, v
     }
 }
 
-void blendAll(SplatFrame frame, uint side, uint first, uint count, vec2 center, inout Column column) {
+void blendAll(SplatFrame frame, uint64_t pairs, uint first, uint count, vec2 center, inout Column column) {
     for (uint base = 0u; base < count; base += DRAIN) {
         const uint own = base + gl_LocalInvocationIndex;
         barrier(); // nobody reads the queue any more
-        if (own < count) queue[gl_LocalInvocationIndex] = pairSplat(frame, side, first + own);
+        if (own < count) queue[gl_LocalInvocationIndex] = pairSplat(pairs, first + own);
         drain(frame, min(count - base, DRAIN), center, column);
         if (largestOfTile(largestTransmittance(column)) < SPLAT_OPAQUE) return;
     }

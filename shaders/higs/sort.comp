@@ -26,21 +26,21 @@ uint keyBits(PairRef pairs, uint first, uint count, out uint least) {
     return count > 1u ? uint(findMSB(most - least) + 1) : 0u;
 }
 
-void sortDigit(PairRef from, PairRef to, uint first, uint count, uint least, uint shift) {
+void sortDigit(PairRef from, PairRef to, uint first, uint count, uint least, uint shift, uint digits) {
     uint places[DIGITS];
-    for (uint d = 0u; d < DIGITS; ++d)
+    for (uint d = 0u; d < digits; ++d)
         places[d] = 0u;
     for (uint i = 0u; i < count; ++i)
-        places[((keyOf(from, first + i) - least) >> shift) & (DIGITS - 1u)] += 1u;
+        places[((keyOf(from, first + i) - least) >> shift) & (digits - 1u)] += 1u;
     uint sum = 0u;
-    for (uint d = 0u; d < DIGITS; ++d) {
+    for (uint d = 0u; d < digits; ++d) {
         const uint n = places[d];
         places[d] = sum;
         sum += n;
     }
     for (uint i = 0u; i < count; ++i) {
         const uint64_t pair = from.v[first + i];
-        const uint d = ((unpackUint2x32(pair).y - least) >> shift) & (DIGITS - 1u);
+        const uint d = ((unpackUint2x32(pair).y - least) >> shift) & (digits - 1u);
         const uint place = places[d];
         places[d] = place + 1u;
         to.v[first + place] = pair;
@@ -56,13 +56,15 @@ void main() {
     const uint first = tile.first + skipped, count = min(tile.count - skipped, SPLAT_BATCH);
     uint least;
     const uint bits = keyBits(PairRef(frame.pairs[0]), first, count, least);
+    // As few passes as digits of DIGIT_BITS allow, and digits no larger than these need.
+    const uint passes = (bits + DIGIT_BITS - 1u) / DIGIT_BITS, digitBits = (bits + passes - 1u) / max(passes, 1u);
     uint side = 0u;
-    for (uint shift = 0u; shift < bits; shift += DIGIT_BITS) {
-        sortDigit(PairRef(frame.pairs[side]), PairRef(frame.pairs[1u - side]), first, count, least, shift);
+    for (uint shift = 0u; shift < bits; shift += digitBits) {
+        sortDigit(PairRef(frame.pairs[side]), PairRef(frame.pairs[1u - side]), first, count, least, shift, 1u << digitBits);
         side = 1u - side;
     }
     if ((frame.flags & FRAME_PROFILING) != 0u)
-        atomicAdd(StateRef(frame.state).v.sortMoves, count * ((bits + DIGIT_BITS - 1u) / DIGIT_BITS + side));
+        atomicAdd(StateRef(frame.state).v.sortMoves, count * (passes + side));
     for (uint i = 0u; i < count && side != 0u; ++i)
         PairRef(frame.pairs[0]).v[first + i] = PairRef(frame.pairs[1]).v[first + i];
 }

@@ -42,7 +42,7 @@ void writeState(SplatFrame frame) {
     state.v.overflow = fits ? 0u : 1u;
     const uint batches = fits ? end.y : 0u, miniBatches = fits ? end.x / SPLAT_MINI_BATCH : 0u;
 #ifdef LANES
-    const uint groups = (batches + 7u) / 8u, tilesPerGroup = 8u; // a lane sorts a batch
+    const uint groups = (batches + 7u) / 8u, tilesPerGroup = SPLAT_LANES_TILES; // a lane sorts a batch
 #else
     const uint groups = batches, tilesPerGroup = 1u;
 #endif

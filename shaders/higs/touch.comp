@@ -5,7 +5,7 @@
 
 layout(local_size_x = 256) in;
 
-void visit(SplatFrame frame, uint chunk, uint tile, uint splat, ProjectedSplat s) {
+void visit(SplatFrame frame, uint chunk, uint tile, uint splat, float key) {
     WordRef(frame.tileMask).v[tile] = 1u;
 }
 

@@ -21,6 +21,7 @@ HIPR_CONST uint NO_SPLAT = 0xffffffffu;
 HIPR_CONST float SPLAT_MAX_EXTENT = 3.33f;
 // A splat contributes alpha = 2^-sigma where sigma = u^2 + v^2 - log2(opacity) is below log2(255).
 HIPR_CONST float SPLAT_SIGMA_LIMIT = 7.99435344f;
+HIPR_CONST float SPLAT_LEAST_ALPHA = 1.0f / 255.0f;
 HIPR_CONST float LOG2_E = 1.44269504f;
 // Added to the variance along both axes of the film: by 3DGS, and by Mip-Splatting's filter, which makes up for it.
 HIPR_CONST float SPLAT_DILATION = 0.3f;
@@ -41,6 +42,7 @@ HIPR_CONST uint SPLAT_DIGITS = 256u;       // of one pass of sorting
 HIPR_CONST uint SPLAT_MERGES = 14u;        // a list has up to SPLAT_BATCH << SPLAT_MERGES pairs
 HIPR_CONST uint SPLAT_MACRO_WIDTH = 64u;   // pixels of a macro-tile: 8 x 4 render tiles
 HIPR_CONST uint SPLAT_MACRO_HEIGHT = 32u;
+HIPR_CONST uint SPLAT_LANES_TILES = 32u;   // render tiles that a workgroup draws in lanes: as many as a macro-tile has
 
 // A cloud on the device.
 struct SplatArrays {
@@ -88,20 +90,29 @@ struct ProjectedSplat {
     float bias;              // -log2(opacity)
     vec3 color;
     float depth;             // camera depth of the centre
-    float key;               // by which splats are sorted, unless it depends on the ray; not negative
-    uint pad;                // kernels read and write pairs of words
 };
 
 // The same with shape, bias and colour in half precision.
 struct ProjectedSplatHalf {
     vec2 mean;
-    float depth;
-    float key;
     uint shapeXY;
     uint shapeZBias;
     uint colorRG;
     uint colorB;
+    float depth;
+    uint pad;                // kernels read and write pairs of words
 };
+
+// What binning wants of a splat on the film.
+struct SplatReach {
+    uint tiles;              // which tiles it meets: in the lower bits the number of one, above for each of
+                             // SPLAT_NEAR_ROWS x SPLAT_NEAR_COLUMNS from there on a bit; 0: none, SPLAT_FAR: not told here
+    float key;               // by which splats are sorted, unless it depends on the ray; not negative
+};
+HIPR_CONST uint SPLAT_NEAR_ROWS = 3u;
+HIPR_CONST uint SPLAT_NEAR_COLUMNS = 4u;
+HIPR_CONST uint SPLAT_NEAR_SHIFT = 20u;    // bits for the number
+HIPR_CONST uint SPLAT_FAR = 0xffffffffu;
 
 // The density along a ray o + t d, d of unit length, is largest at t = d . (pull - m o') / (d . m d), o' being the
 // ray's origin relative to the camera's; world space.
@@ -158,7 +169,8 @@ struct SplatFrame {
     uint64_t placements;     // SplatPlacement[placementCount], ordered by `first`
     uint64_t blocks;         // SplatBlock[]
     uint64_t splats;         // ProjectedSplat[splatCount], or ProjectedSplatHalf[]
-    uint64_t rays;           // SplatRay[splatCount], or 0: lists are sorted by ProjectedSplat::key
+    uint64_t reaches;        // SplatReach[splatCount]
+    uint64_t rays;           // SplatRay[splatCount], or 0: lists are sorted by SplatReach::key
     uint64_t histogram;      // uint[SPLAT_CHUNKS][tiles], or uint[tiles] where workgroups bin
     uint64_t tiles;          // SplatTile[tileColumns * tileRows]
     uint64_t tileMask;       // uint[tiles]: 0 where nothing is to be drawn

@@ -64,8 +64,9 @@ HIPR_INLINE vec2 ellipseSpan(SplatEllipse e, float lo, float hi) {
 
 // Tiles of a row, or rows, that an interval meets: from .x to before .y. Tiles have closed edges: touching is meeting.
 HIPR_INLINE uvec2 tilesOfSpan(float lo, float hi, float tile, uint first, uint end) {
-    float from = clamp(floor(lo / tile), float(first), float(end));
-    float to = clamp(floor(hi / tile) + 1.0f, float(first), float(end));
+    float inverse_ = 1.0f / tile; // exact: edges of tiles are powers of two
+    float from = clamp(floor(lo * inverse_), float(first), float(end));
+    float to = clamp(floor(hi * inverse_) + 1.0f, float(first), float(end));
     return uvec2(uint(from), uint(max(from, to)));
 }
 
