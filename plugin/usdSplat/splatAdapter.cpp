@@ -1,6 +1,10 @@
 #include "plugin/usdSplat/splatAdapter.h"
 
+#include <mutex>
+#include <set>
+
 #include "plugin/usdSplat/splatAttributes.h"
+#include "pxr/base/tf/diagnostic.h"
 #include "pxr/base/tf/registryManager.h"
 #include "pxr/base/tf/type.h"
 
@@ -11,7 +15,29 @@ using hdhipr::particleFieldType;
 TF_REGISTRY_FUNCTION(TfType) {
     TfType type = TfType::Define<UsdSplatAdapter, TfType::Bases<UsdImagingGprimAdapter>>();
     type.SetFactory<UsdImagingPrimAdapterFactory<UsdSplatAdapter>>();
+    TfType field = TfType::Define<UsdSplatFieldAdapter, TfType::Bases<UsdSplatAdapter>>();
+    field.SetFactory<UsdImagingPrimAdapterFactory<UsdSplatFieldAdapter>>();
 }
+
+namespace {
+
+/// Whether a ParticleField is drawn; tells once if not.
+bool drawn(UsdPrim const& field) {
+    const std::string fault = UsdSplatFieldFault(field);
+    if (fault.empty()) {
+        return true;
+    }
+    static std::mutex mutex;
+    static std::set<std::string> told;
+    const std::string text = field.GetPath().GetString() + ": " + fault + "; it is not drawn";
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (told.insert(text).second) {
+        TF_WARN("%s", text.c_str());
+    }
+    return false;
+}
+
+} // namespace
 
 bool UsdSplatAdapter::IsSupported(UsdImagingIndexProxy const* index) const {
     return index->IsRprimTypeSupported(particleFieldType());
@@ -87,6 +113,19 @@ UsdSplatAdapter::InvalidateImagingSubprim(UsdPrim const& prim, TfToken const& su
                                           UsdImagingPropertyInvalidationType invalidationType) {
     return subprim.IsEmpty() ? UsdSplatDataSource::Invalidate(prim, subprim, properties, invalidationType)
                              : HdDataSourceLocatorSet();
+}
+
+#endif
+
+SdfPath UsdSplatFieldAdapter::Populate(UsdPrim const& prim, UsdImagingIndexProxy* index,
+                                       UsdImagingInstancerContext const* instancerContext) {
+    return drawn(prim) ? BaseAdapter::Populate(prim, index, instancerContext) : SdfPath();
+}
+
+#if PXR_VERSION >= 2308
+
+TfToken UsdSplatFieldAdapter::GetImagingSubprimType(UsdPrim const& prim, TfToken const& subprim) {
+    return drawn(prim) ? BaseAdapter::GetImagingSubprimType(prim, subprim) : TfToken();
 }
 
 #endif

@@ -12,7 +12,7 @@ PXR_NAMESPACE_OPEN_SCOPE
 
 /// Primvars have the names of the attributes in single precision; those in half precision stand in for what
 /// is not there. The two hints are passed on as constant primvars.
-class UsdSplatAdapter final : public UsdSplatAdapterBase {
+class UsdSplatAdapter : public UsdSplatAdapterBase {
 public:
     using BaseAdapter = UsdSplatAdapterBase;
 
@@ -38,6 +38,19 @@ protected:
     HdPrimvarDescriptorVector const& primvarsOfType() const override;
     bool hasPrimvar(UsdPrim const& prim, TfToken const& name) const override;
     VtValue readPrimvar(UsdPrim const& prim, TfToken const& name, UsdTimeCode time) const override;
+};
+
+/// The same for bare ParticleField prims whose applied API schemas make them clouds of Gaussian splats.
+/// Others are not drawn, which one warning tells.
+class UsdSplatFieldAdapter final : public UsdSplatAdapter {
+public:
+    using BaseAdapter = UsdSplatAdapter;
+
+    SdfPath Populate(UsdPrim const& prim, UsdImagingIndexProxy* index,
+                     UsdImagingInstancerContext const* instancerContext = nullptr) override;
+#if PXR_VERSION >= 2308
+    TfToken GetImagingSubprimType(UsdPrim const& prim, TfToken const& subprim) override;
+#endif
 };
 
 PXR_NAMESPACE_CLOSE_SCOPE

@@ -59,6 +59,7 @@ class Viewer(object):
 
 # Places near the middles of the squares, off the axes that usdview draws.
 RED, GREEN, BLUE, EMPTY = (-1.2, 0.2), (1.2, 0.2), (0.2, 1.6), (-1.2, -1.2)
+SPLATS = (0.2, -0.5)
 
 
 def check_picture(viewer):
@@ -100,6 +101,23 @@ def check_pick(viewer):
     print("ok: picks")
 
 
+def check_splats(viewer):
+    viewer.expect("before there are splats", grey=[SPLATS])
+    cloud = viewer.stage.DefinePrim("/World/Cloud", "ParticleField3DGaussianSplat")
+    cloud.GetAttribute("positions").Set([Gf.Vec3f(SPLATS[0], SPLATS[1], 0.5)])
+    cloud.GetAttribute("scales").Set([Gf.Vec3f(0.08)])
+    cloud.GetAttribute("radiance:sphericalHarmonicsDegree").Set(0)
+    cloud.GetAttribute("radiance:sphericalHarmonicsCoefficients").Set([Gf.Vec3f(0.5, -0.5, -0.5) / 0.28209479])
+    viewer.converge()
+    viewer.expect("with splats", red=[SPLATS, EMPTY], blue=[BLUE])
+    got = viewer.pick(*SPLATS)
+    assert got == cloud.GetPath(), "picked <%s> instead of splats" % got
+    # usdview frames what is selected by this, though no extent is authored.
+    box = UsdGeom.BBoxCache(2, ["default"]).ComputeWorldBound(cloud).ComputeAlignedRange()
+    assert Gf.IsClose(box.GetSize(), Gf.Vec3d(0.48), 1e-4), box
+    print("ok: splats are picked and framed")
+
+
 def check_settings(viewer):
     keys = [setting.key for setting in viewer.view.GetRendererSettingsList()]
     assert "convergedSamplesPerPixel" in keys, "settings: %s" % keys
@@ -119,6 +137,9 @@ def testUsdviewInputFunction(appController):
         for check in (check_picture, check_move, check_visibility, check_frame, check_pick):
             check(viewer)
         if usd_tool.RENDERER == "HiPR":  # others restart
+            check_splats(viewer)
+            if os.environ.get("HIPR_TEST_OUT"):
+                viewer.controller.GrabViewportShot().save(os.path.join(os.environ["HIPR_TEST_OUT"], "usdview.png"))
             check_settings(viewer)
     except Exception:
         traceback.print_exc()

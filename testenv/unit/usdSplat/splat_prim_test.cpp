@@ -4,6 +4,8 @@
 
 #include "pxr/base/gf/quatf.h"
 #include "pxr/usd/usd/schemaRegistry.h"
+#include "pxr/usd/usdGeom/bboxCache.h"
+#include "pxr/usd/usdGeom/boundable.h"
 #include "pxr/usd/usdGeom/gprim.h"
 #include "pxr/usd/usdGeom/imageable.h"
 #include "pxr/usd/usdGeom/xformCommonAPI.h"
@@ -247,6 +249,60 @@ TEST_F(Prims, areInstancedByReferences) {
     UsdGeomXformCommonAPI(stage->GetPrimAtPath(SdfPath("/B"))).SetTranslate(GfVec3d(5, 0, 0));
     synced = only(host.update());
     EXPECT_THAT(synced.places, testing::UnorderedElementsAre(GfVec3d(1, 0, 0), GfVec3d(5, 0, 0)));
+}
+
+const char* const fieldApis =
+    "\"ParticleFieldPositionAttributeAPI\", \"ParticleFieldKernelGaussianEllipsoidAPI\", "
+    "\"ParticleFieldSphericalHarmonicsAttributeAPI\"";
+
+UsdStageRefPtr fieldStage(std::string const& apis) {
+    const std::string metadata = apis.empty() ? "" : " (prepend apiSchemas = [" + apis + "])";
+    return splatStage("def ParticleField \"Field\"" + metadata + "\n{\n" + positions +
+                      "float[] opacities = [0.25, 1]\n}\n");
+}
+
+TEST_F(Prims, mayBeBareFieldsWithTheSchemasOfSplats) {
+    const UsdStageRefPtr stage = fieldStage(fieldApis);
+    SplatHost host(stage);
+    const SyncedSplats splats = only(host.update());
+    ASSERT_TRUE(splats.cloud);
+    EXPECT_EQ(splats.cloud->positions, (Vec3s{{1, 2, 3}, {4, 5, 6}}));
+    EXPECT_THAT(splats.cloud->opacities, ElementsAre(0.25f, 1.f));
+}
+
+TEST(SplatPrims, thatAreOtherFieldsAreNotDrawnAndSaySoOnce) {
+    for (auto const& [apis, why] :
+         {std::pair("", "does not apply ParticleFieldPositionAttributeAPI"),
+          std::pair("\"ParticleFieldPositionAttributeAPI\", \"ParticleFieldKernelGaussianEllipsoidAPI\"",
+                    "does not apply ParticleFieldSphericalHarmonicsAttributeAPI"),
+          std::pair("\"ParticleFieldPositionAttributeAPI\", \"ParticleFieldKernelGaussianSurfletAPI\", "
+                    "\"ParticleFieldSphericalHarmonicsAttributeAPI\"",
+                    "has particles of another kernel, ParticleFieldKernelGaussianSurfletAPI")}) {
+        TestWarnings warnings;
+        const UsdStageRefPtr stage = fieldStage(apis);
+        SplatHost host(stage), again(stage);
+        EXPECT_TRUE(host.update().empty()) << apis;
+        EXPECT_TRUE(again.update().empty()) << apis;
+        EXPECT_THAT(warnings.texts(), ElementsAre(HasSubstr("/Field: " + std::string(why))));
+    }
+}
+
+TEST_F(Prims, haveAnExtentThoughNoneIsAuthored) {
+    const UsdStageRefPtr stage = stageOf(std::string(positions) + R"(
+        half3[] scalesh = [(1, 2, 3), (0.5, 0.25, 0)]
+        quatf[] orientations = [(1, 0, 0, 0), (0, 0, 0, 1)]
+        double3 xformOp:translate = (10, 0, 0)
+        uniform token[] xformOpOrder = ["xformOp:translate"])");
+    UsdGeomBBoxCache cache(UsdTimeCode::Default(), {UsdGeomTokens->default_});
+    const GfRange3d box = cache.ComputeWorldBound(stage->GetPrimAtPath(path)).ComputeAlignedRange();
+    EXPECT_LT((box.GetMin() - GfVec3d(8, -4, -6)).GetLength(), 1e-5);
+    EXPECT_LT((box.GetMax() - GfVec3d(15.5, 8, 12)).GetLength(), 1e-5);
+    VtVec3fArray turned;
+    const UsdGeomBoundable prim(stage->GetPrimAtPath(path));
+    ASSERT_TRUE(UsdGeomBoundable::ComputeExtentFromPlugins(
+        prim, UsdTimeCode::Default(), GfMatrix4d().SetScale(GfVec3d(-1, 1, 2)), &turned));
+    EXPECT_LT((turned[0] - GfVec3f(-5.5f, -4, -12)).GetLength(), 1e-5f);
+    EXPECT_LT((turned[1] - GfVec3f(2, 8, 24)).GetLength(), 1e-5f);
 }
 
 TEST(SplatPrims, withArraysOfOtherLengthsSayThatOnce) {
