@@ -170,10 +170,10 @@ bool FilmBuffers::read(const AovRequest& aov, const TileSchedule& schedule, void
     if (!holds(aov)) return false;
     if (words != pixels() * aovFormat(aov.kind).components) return false;
     if (words == 0) return true;
-    if (isSum(aov.kind)) {
-        readSums(aov.kind, schedule, static_cast<float*>(dst));
-        return true;
-    }
+    if (aov.kind == AovKind::Color)
+        readMeans(&gpu::FilmPixel::color, &gpu::OldPixel::color, schedule, static_cast<float*>(dst));
+    if (aov.kind == AovKind::Albedo)
+        readMeans(&gpu::FilmPixel::albedo, &gpu::OldPixel::albedo, schedule, static_cast<float*>(dst));
     for (const FirstHitAov& firstHit : _firstHits)
         if (firstHit.request == aov) _device.download(firstHit.values, dst, words * sizeof(uint32_t));
     return true;
@@ -187,25 +187,24 @@ template <class T> const T* FilmBuffers::hostCopy(const Buffer& buffer, std::vec
     return copy.data();
 }
 
-void FilmBuffers::readSums(AovKind kind, const TileSchedule& schedule, float* dst) const {
+/// What is on display, of one member of the pixels.
+template <class Value>
+void FilmBuffers::readMeans(Value gpu::FilmPixel::*sum, Value gpu::OldPixel::*old,
+                            const TileSchedule& schedule, float* dst) const {
     std::vector<gpu::FilmPixel> sumCopy;
     std::vector<gpu::OldPixel> oldCopy;
     const gpu::FilmPixel* sums = hostCopy(_sums, sumCopy);
-    const gpu::OldPixel* old = nullptr; // few pictures need it
+    const gpu::OldPixel* olds = nullptr; // few pictures need it
     const TileGrid& grid = schedule.grid();
-    const size_t components = aovFormat(kind).components;
-    const bool color = kind == AovKind::Color;
     for (uint32_t tile = 0; tile < grid.count(); ++tile) {
         const bool keepsOld = schedule.tiles()[tile].keepsOld;
-        if (keepsOld && !old) old = hostCopy(_oldPicture, oldCopy);
+        if (keepsOld && !olds) olds = hostCopy(_oldPicture, oldCopy);
         const TileRect r = grid.rect(tile);
         for (uint32_t y = r.y; y < r.y + r.height; ++y)
             for (size_t i = size_t(y) * grid.width + r.x, end = i + r.width; i < end; ++i) {
                 const float weight = sums[i].count ? 1.f / float(sums[i].count) : 0.f;
-                const glm::vec4 mean =
-                    keepsOld ? (color ? old[i].color : glm::vec4(old[i].albedo, 0.f))
-                             : (color ? sums[i].color : glm::vec4(sums[i].albedo, 0.f)) * weight;
-                std::memcpy(dst + i * components, &mean, components * sizeof(float));
+                const Value mean = keepsOld ? olds[i].*old : sums[i].*sum * weight;
+                std::memcpy(dst + i * Value::length(), &mean, sizeof(mean));
             }
     }
 }

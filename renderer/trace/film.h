@@ -37,7 +37,8 @@ public:
     void retireHits();
     /// Forgets those before the edit: the picture is of another view.
     void dropPreviousHits() { _hasPrevious = false; }
-    /// Whether the depths of first hits are kept, which hide what is drawn over the picture. Returns the same.
+    /// Whether the depths of first hits are kept, which hide what is drawn over the picture. Returns the
+    /// same.
     bool keepDepths(bool keep);
     /// gpu::TraceRecord::opaqueDepths, or 0.
     VkDeviceAddress depths() const { return _depths ? _depths.address() : 0; }
@@ -67,7 +68,9 @@ private:
     void allocate();
     void refuse(const std::string& reason);
     Buffer filled(uint64_t bytes, uint32_t word);
-    void readSums(AovKind kind, const TileSchedule& schedule, float* dst) const;
+    template <class Value>
+    void readMeans(Value gpu::FilmPixel::*sum, Value gpu::OldPixel::*old, const TileSchedule& schedule,
+                   float* dst) const;
     template <class T> const T* hostCopy(const Buffer& buffer, std::vector<T>& copy) const;
     void createHits();
     void createPictures();
