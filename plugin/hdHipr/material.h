@@ -1,5 +1,5 @@
 /// @file material.h
-/// HdHiprMaterial: a material network as the renderer's UsdPreviewSurface description.
+/// HdHiprMaterial: a material network as the renderer's description.
 #pragma once
 
 #include "plugin/hdHipr/compat.h"

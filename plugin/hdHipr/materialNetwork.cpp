@@ -30,7 +30,8 @@ public:
     Parser(SdfPath const& material, HdMaterialNetwork const& network)
         : _material(material), _network(network) {}
 
-    hipr::MaterialDesc surface(Node const& node) const;
+    hipr::MaterialDesc previewSurface(Node const& node) const;
+    hipr::MaterialDesc openPbr(Node const& node) const;
 
 private:
     void complain(std::string const& text) const { warnOnce(_material.GetString(), text); }
@@ -231,7 +232,7 @@ void Parser::input(Node const& node, const char* name, MaterialInput& out) const
     }
 }
 
-hipr::MaterialDesc Parser::surface(Node const& node) const {
+hipr::MaterialDesc Parser::previewSurface(Node const& node) const {
     hipr::MaterialDesc desc;
     desc.name = _material.GetString();
     desc.useSpecularWorkflow = vec(node, "useSpecularWorkflow", glm::vec4(0.f)).x != 0.f;
@@ -269,6 +270,29 @@ hipr::MaterialDesc Parser::surface(Node const& node) const {
     return desc;
 }
 
+hipr::MaterialDesc Parser::openPbr(Node const& node) const {
+    hipr::MaterialDesc desc;
+    desc.name = _material.GetString();
+    desc.model = hipr::MaterialModel::OpenPbr;
+    for (size_t i = 0; i < hipr::openPbrInputs().size(); ++i) {
+        const char* name = hipr::openPbrInputs()[i].name;
+        if (param(node, name).IsEmpty() && !upstream(node, name).node) {
+            continue;
+        }
+        const auto which = hipr::OpenPbrInput(i);
+        MaterialInput value = hipr::openPbrDefault(which);
+        input(node, name, value);
+        desc.openPbr[which] = value;
+    }
+    return desc;
+}
+
+/// The names that OpenPBR Surface has as a node.
+bool isOpenPbr(TfToken const& identifier) {
+    return identifier == "ND_open_pbr_surface_surfaceshader" || identifier == "open_pbr_surface" ||
+           identifier == "OpenPBR" || identifier == "OpenPBRSurface";
+}
+
 } // namespace
 
 std::optional<hipr::MaterialDesc> materialDesc(SdfPath const& materialPath,
@@ -297,13 +321,17 @@ std::optional<hipr::MaterialDesc> materialDesc(SdfPath const& materialPath,
         }
         return std::nullopt;
     }
+    const Parser parser(materialPath, network);
+    if (isOpenPbr(terminal.identifier)) {
+        return parser.openPbr(terminal);
+    }
     if (terminal.identifier != "UsdPreviewSurface") {
         warnOnce(materialPath.GetString(),
                  "its surface <" + terminal.path.GetString() + "> is a '" + terminal.identifier.GetString() +
                      "' node, which is not supported; displayColor is shown instead");
         return std::nullopt;
     }
-    return Parser(materialPath, network).surface(terminal);
+    return parser.previewSurface(terminal);
 }
 
 } // namespace hdhipr

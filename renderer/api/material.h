@@ -1,9 +1,11 @@
 /// @file material.h
-/// UsdPreviewSurface materials as data: every input is a constant, a texture or a primvar.
+/// Materials as data: every input is a constant, a texture or a primvar.
 #pragma once
 
+#include <map>
 #include <tuple>
 
+#include "renderer/api/openpbr.h"
 #include "renderer/api/types.h"
 
 namespace hipr {
@@ -41,10 +43,18 @@ struct MaterialInput {
 
 enum class OpacityMode : uint32_t { Transparent, Presence };
 
-/// The UsdPreviewSurface inputs with the specification's defaults
-/// (UsdPreviewSurface Specification 2.6, section "UsdPreviewSurface").
+enum class MaterialModel : uint32_t { UsdPreviewSurface, OpenPbr };
+
+/// A material of either model; the inputs of the other one are ignored.
 struct MaterialDesc {
     std::string name;
+    MaterialModel model = MaterialModel::UsdPreviewSurface;
+
+    /// The inputs of OpenPBR Surface; those absent have the specification's defaults (openPbrInputs()).
+    std::map<OpenPbrInput, MaterialInput> openPbr;
+
+    /// The inputs of UsdPreviewSurface with the specification's defaults (UsdPreviewSurface Specification
+    /// 2.6, section "UsdPreviewSurface").
     MaterialInput diffuseColor{MaterialInput::Source::Constant, glm::vec4(0.18f, 0.18f, 0.18f, 1.f), Channel::Rgb, {}, {}};
     MaterialInput emissiveColor{};
     MaterialInput specularColor{};
@@ -60,11 +70,17 @@ struct MaterialDesc {
     bool useSpecularWorkflow = false;
     OpacityMode opacityMode = OpacityMode::Transparent;
     auto members() const {
-        return std::tie(name, diffuseColor, emissiveColor, specularColor, metallic, roughness, clearcoat,
+        return std::tie(name, model, openPbr, diffuseColor, emissiveColor, specularColor, metallic, roughness, clearcoat,
                         clearcoatRoughness, opacity, opacityThreshold, ior, normal, occlusion, useSpecularWorkflow,
                         opacityMode);
     }
     bool operator==(const MaterialDesc& o) const { return members() == o.members(); }
 };
+
+/// An input of OpenPBR Surface with the specification's default.
+MaterialInput openPbrDefault(OpenPbrInput input);
+
+/// The input of a description, or its default.
+MaterialInput openPbrInput(const MaterialDesc& material, OpenPbrInput input);
 
 } // namespace hipr

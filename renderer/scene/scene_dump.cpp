@@ -150,6 +150,14 @@ void dumpMesh(SceneDump& dump, const TriangleMesh& mesh) {
 
 void dumpMaterial(SceneDump& dump, const MaterialDesc& material, bool nonOpaque) {
     SceneDump::Element& out = dump.element("material", material.name);
+    if (material.model == MaterialModel::OpenPbr) {
+        out.fact("model", "OpenPBR");
+        for (size_t i = 0; i < openPbrInputs().size(); ++i)
+            dumpInput(out, openPbrInputs()[i].name, openPbrInput(material, OpenPbrInput(i)));
+        out.fact("nonOpaque", nonOpaque);
+        return;
+    }
+    out.fact("model", "UsdPreviewSurface");
     const std::pair<const char*, const MaterialInput*> inputs[] = {
         {"diffuseColor", &material.diffuseColor},
         {"emissiveColor", &material.emissiveColor},

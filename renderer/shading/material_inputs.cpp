@@ -1,7 +1,9 @@
 #include "renderer/shading/material_inputs.h"
 
+#include <array>
 #include <cmath>
 
+#include "renderer/shading/media.h"
 #include "shaders/shared/scene.h"
 
 namespace hipr {
@@ -10,15 +12,17 @@ namespace {
 
 using Source = MaterialInput::Source;
 
-/// One row per INPUT_*: where it is in MaterialDesc, its name, and the range of its components.
-struct InputRow {
+constexpr float Unbounded = std::numeric_limits<float>::max();
+
+/// An input of a UsdPreviewSurface: where it is in MaterialDesc, its name, and the range of its components.
+struct PreviewRow {
     MaterialInput MaterialDesc::*member;
     const char* name;
     float least, most;
 };
 
-constexpr float Unbounded = std::numeric_limits<float>::max();
-constexpr std::array<InputRow, gpu::INPUT_COUNT> Rows = {{
+/// By INPUT_*.
+constexpr std::array<PreviewRow, gpu::PREVIEW_INPUT_COUNT> PreviewRows = {{
     {&MaterialDesc::diffuseColor, "diffuseColor", 0.f, 1.f},
     {&MaterialDesc::emissiveColor, "emissiveColor", 0.f, Unbounded},
     {&MaterialDesc::specularColor, "specularColor", 0.f, 1.f},
@@ -32,24 +36,63 @@ constexpr std::array<InputRow, gpu::INPUT_COUNT> Rows = {{
     {&MaterialDesc::normal, "normal", -Unbounded, Unbounded},
 }};
 
+/// The inputs of OpenPBR that kernels read, by INPUT_*; Count: none.
+constexpr std::array<OpenPbrInput, gpu::INPUT_COUNT> OpenPbrRows = {
+    OpenPbrInput::BaseColor,
+    OpenPbrInput::EmissionColor,
+    OpenPbrInput::SpecularColor,
+    OpenPbrInput::BaseMetalness,
+    OpenPbrInput::SpecularRoughness,
+    OpenPbrInput::CoatWeight,
+    OpenPbrInput::CoatRoughness,
+    OpenPbrInput::GeometryOpacity,
+    OpenPbrInput::Count,
+    OpenPbrInput::SpecularIor,
+    OpenPbrInput::GeometryNormal,
+    OpenPbrInput::BaseWeight,
+    OpenPbrInput::BaseDiffuseRoughness,
+    OpenPbrInput::SpecularWeight,
+    OpenPbrInput::SpecularRoughnessAnisotropy,
+    OpenPbrInput::TransmissionWeight,
+    OpenPbrInput::TransmissionColor,
+    OpenPbrInput::SubsurfaceWeight,
+    OpenPbrInput::SubsurfaceColor,
+    OpenPbrInput::SubsurfaceScatterAnisotropy,
+    OpenPbrInput::FuzzWeight,
+    OpenPbrInput::FuzzColor,
+    OpenPbrInput::FuzzRoughness,
+    OpenPbrInput::CoatColor,
+    OpenPbrInput::CoatRoughnessAnisotropy,
+    OpenPbrInput::CoatIor,
+    OpenPbrInput::CoatDarkening,
+    OpenPbrInput::EmissionLuminance,
+    OpenPbrInput::ThinFilmWeight,
+    OpenPbrInput::ThinFilmThickness,
+    OpenPbrInput::ThinFilmIor,
+    OpenPbrInput::Count,
+};
+
 /// The constant of an input within its range. NaN and infinity become the specification's default.
-glm::vec4 checkedConstant(const InputRow& row, const MaterialInput& input, std::string& complaints) {
+glm::vec4 checkedConstant(const char* name, const MaterialInput& input, const glm::vec4& standard,
+                          float least, float most, std::string& complaints) {
     glm::vec4 value = input.constant;
     const int used = input.channel == Channel::Rgb ? 3 : 1;
     bool bad = false;
     for (int c = 0; c < 4; ++c) {
-        float checked = std::isfinite(value[c]) ? value[c] : (MaterialDesc().*row.member).constant[c];
-        checked = std::min(std::max(checked, row.least), row.most);
+        float checked = std::isfinite(value[c]) ? value[c] : standard[c];
+        checked = std::min(std::max(checked, least), most);
         if (c < used && checked != value[c]) bad = true; // also true for NaN
         value[c] = checked;
     }
-    if (bad) complaints += std::string(complaints.empty() ? "" : ", ") + row.name;
+    if (bad) complaints += std::string(complaints.empty() ? "" : ", ") + name;
     return value;
 }
 
 gpu::InputNode describeNode(const MaterialInput& input, const glm::vec4& constant, NameTable& names) {
     gpu::InputNode node{};
     node.texture = gpu::NO_INDEX;
+    node.uvAxisU = {1.f, 0.f};
+    node.uvAxisV = {0.f, 1.f};
     node.channel = uint32_t(input.channel);
     node.fallback = constant;
     if (input.source == Source::Primvar) {
@@ -89,17 +132,145 @@ bool constantOpacity(const ResolvedMaterial& m, const TextureStore& textures, fl
     return true;
 }
 
+bool mayExceed(const ResolvedInput& input, float least) {
+    return input.kind != Source::Constant || input.constant.x > least;
+}
+
 /// How (1 - opacity) of the light passes; see shaders/shared/material.h.
 uint32_t opacityFlags(const ResolvedMaterial& m, const TextureStore& textures) {
     constexpr uint32_t Straight = gpu::MATERIAL_PRESENCE | gpu::MATERIAL_NON_OPAQUE;
     float opacity;
     if (!constantOpacity(m, textures, opacity)) return Straight;
     if (opacity >= 1.f) return 0;
-    const ResolvedInput& ior = m.inputs[gpu::INPUT_IOR];
+    if (m.model == MaterialModel::OpenPbr) return Straight;
+    const ResolvedInput& ior = m.inputs[gpu::INPUT_SPECULAR_IOR];
     const bool bends = ior.kind != Source::Constant || std::abs(ior.constant.x - 1.f) >= gpu::MIN_IOR_STEP;
     const bool cutOut = m.inputs[gpu::INPUT_OPACITY_THRESHOLD].constant.x > 0.f;
     return m.opacityMode == OpacityMode::Transparent && bends && !cutOut ? gpu::MATERIAL_REFRACTIVE
                                                                          : Straight;
+}
+
+uint32_t materialFlags(const ResolvedMaterial& m, const TextureStore& textures) {
+    uint32_t flags = opacityFlags(m, textures);
+    if (m.specularWorkflow) flags |= gpu::MATERIAL_SPECULAR_WORKFLOW;
+    if (isEmissive(m)) flags |= gpu::MATERIAL_EMISSIVE;
+    if (m.model != MaterialModel::OpenPbr) return flags;
+    flags |= gpu::MATERIAL_OPENPBR;
+    if (m.thinWalled) flags |= gpu::MATERIAL_THIN_WALLED;
+    if (!m.thinWalled && mayExceed(m.inputs[gpu::INPUT_TRANSMISSION_WEIGHT], 0.f))
+        flags |= gpu::MATERIAL_REFRACTIVE;
+    if (m.subsurface.extinction != glm::vec3(0.f)) flags |= gpu::MATERIAL_SUBSURFACE;
+    return flags;
+}
+
+/// What an authored input of OpenPBR does not do; empty when it does everything.
+const char* shortfall(const OpenPbrInputInfo& info, const MaterialInput& input) {
+    const bool driven = input.source != Source::Constant;
+    const bool standard = !driven && input.constant == info.value;
+    switch (info.use) {
+    case InputUse::Full:
+        return "";
+    case InputUse::Constant:
+        return driven ? "its constant alone is used" : "";
+    case InputUse::Texture:
+        return standard || input.source == Source::Texture ? "" : "it is used from textures alone";
+    case InputUse::None:
+        break;
+    }
+    return standard ? "" : "it has no effect";
+}
+
+/// Checks the inputs of one description, one after the other.
+struct Resolver {
+    const MaterialDesc& desc;
+    NameTable& names;
+    TextureStore& textures;
+    std::string complaints;
+
+    ResolvedInput resolve(const char* name, const MaterialInput& input, const glm::vec4& standard,
+                          float least, float most) {
+        ResolvedInput resolved;
+        resolved.kind = input.source;
+        resolved.constant = checkedConstant(name, input, standard, least, most, complaints);
+        if (input.source == Source::Constant) return resolved;
+        resolved.node = describeNode(input, resolved.constant, names);
+        const TextureDesc& t = input.texture;
+        if (input.source == Source::Texture)
+            resolved.texture = textures.acquire({t.path, t.colorSpace, t.wrapS, t.wrapT, false}, desc.name);
+        return resolved;
+    }
+
+    void preview(std::vector<ResolvedInput>& inputs) {
+        static const MaterialDesc standard;
+        for (const PreviewRow& row : PreviewRows)
+            inputs.push_back(
+                resolve(row.name, desc.*row.member, (standard.*row.member).constant, row.least, row.most));
+    }
+
+    /// Of an input that takes effect by its constant alone.
+    glm::vec4 constant(OpenPbrInput which) {
+        const OpenPbrInputInfo& info = openPbrInputs()[size_t(which)];
+        return checkedConstant(info.name, openPbrInput(desc, which), info.value, info.least, info.most,
+                               complaints);
+    }
+
+    /// What light travels through inside the object. With a depth, transmission_color is what absorption
+    /// makes of light over that depth, and no tint of the surface.
+    void media(ResolvedMaterial& out) {
+        const float depth = constant(OpenPbrInput::TransmissionDepth).x;
+        ResolvedInput& color = out.inputs[gpu::INPUT_TRANSMISSION_COLOR];
+        out.interior.dispersion = abbeNumber(constant(OpenPbrInput::TransmissionDispersionScale).x,
+                                             constant(OpenPbrInput::TransmissionDispersionAbbeNumber).x);
+        out.subsurface = subsurfaceMedium(constant(OpenPbrInput::SubsurfaceRadius).x,
+                                          glm::vec3(constant(OpenPbrInput::SubsurfaceRadiusScale)),
+                                          out.inputs[gpu::INPUT_SUBSURFACE_ANISOTROPY].constant.x);
+        if (depth <= 0.f) return;
+        setTransmissionMedium(out.interior, glm::vec3(color.constant), depth,
+                              glm::vec3(constant(OpenPbrInput::TransmissionScatter)),
+                              constant(OpenPbrInput::TransmissionScatterAnisotropy).x);
+        color.constant = glm::vec4(1.f);
+    }
+
+    void openPbr(std::vector<ResolvedInput>& inputs) {
+        for (const OpenPbrInput which : OpenPbrRows) {
+            if (which == OpenPbrInput::Count) {
+                inputs.emplace_back();
+                continue;
+            }
+            const OpenPbrInputInfo& info = openPbrInputs()[size_t(which)];
+            inputs.push_back(
+                resolve(info.name, openPbrInput(desc, which), info.value, info.least, info.most));
+        }
+        addTangent(inputs);
+    }
+
+    /// Stretched highlights follow the texture coordinates: those of the normal map, else st.
+    void addTangent(std::vector<ResolvedInput>& inputs) {
+        if (!mayExceed(inputs[gpu::INPUT_SPECULAR_ANISOTROPY], 0.f) &&
+            !mayExceed(inputs[gpu::INPUT_COAT_ANISOTROPY], 0.f))
+            return;
+        const MaterialInput normal = openPbrInput(desc, OpenPbrInput::GeometryNormal);
+        MaterialInput reader;
+        reader.source = Source::Primvar;
+        reader.primvar = normal.source == Source::Texture ? normal.texture.uvPrimvar : "st";
+        inputs[gpu::INPUT_TANGENT].kind = Source::Primvar;
+        inputs[gpu::INPUT_TANGENT].node = describeNode(reader, glm::vec4(0.f), names);
+    }
+};
+
+/// Names what the material asks for and does not get, each with the reason.
+void tellShortfalls(const MaterialDesc& desc, const MessageSink& messages) {
+    const bool deep = openPbrInput(desc, OpenPbrInput::TransmissionDepth).constant.x > 0.f;
+    if (deep && openPbrInput(desc, OpenPbrInput::TransmissionColor).source != Source::Constant)
+        messages(Severity::Warning, desc.name,
+                 "material input transmission_color: with a transmission_depth what drives it colours the "
+                 "surface, its constant the inside");
+    for (const auto& [which, input] : desc.openPbr) {
+        const OpenPbrInputInfo& info = openPbrInputs()[size_t(which)];
+        const std::string text = shortfall(info, input);
+        if (!text.empty())
+            messages(Severity::Warning, desc.name, std::string("material input ") + info.name + ": " + text);
+    }
 }
 
 } // namespace
@@ -107,55 +278,57 @@ uint32_t opacityFlags(const ResolvedMaterial& m, const TextureStore& textures) {
 ResolvedMaterial resolveMaterial(const MaterialDesc& desc, NameTable& names, TextureStore& textures,
                                  const MessageSink& messages) {
     ResolvedMaterial result;
-    result.specularWorkflow = desc.useSpecularWorkflow;
-    result.opacityMode = desc.opacityMode;
-    std::string complaints;
-    for (size_t i = 0; i < Rows.size(); ++i) {
-        const MaterialInput& input = desc.*Rows[i].member;
-        ResolvedInput& resolved = result.inputs[i];
-        resolved.kind = input.source;
-        resolved.constant = checkedConstant(Rows[i], input, complaints);
-        if (input.source == Source::Constant) continue;
-        resolved.node = describeNode(input, resolved.constant, names);
-        if (input.source != Source::Texture) continue;
-        const TextureDesc& t = input.texture;
-        resolved.texture = textures.acquire({t.path, t.colorSpace, t.wrapS, t.wrapT, false}, desc.name);
+    result.model = desc.model;
+    Resolver resolver{desc, names, textures, {}};
+    if (desc.model == MaterialModel::OpenPbr) {
+        result.thinWalled = resolver.constant(OpenPbrInput::GeometryThinWalled).x > 0.5f;
+        resolver.openPbr(result.inputs);
+        if (!result.thinWalled) resolver.media(result);
+    } else {
+        result.specularWorkflow = desc.useSpecularWorkflow;
+        result.opacityMode = desc.opacityMode;
+        resolver.preview(result.inputs);
     }
-    if (!complaints.empty() && messages)
-        messages(Severity::Warning, desc.name, "material inputs out of range, clamped: " + complaints);
+    if (!messages) return result;
+    if (!resolver.complaints.empty())
+        messages(Severity::Warning, desc.name,
+                 "material inputs out of range, clamped: " + resolver.complaints);
+    if (desc.model == MaterialModel::OpenPbr) {
+        tellShortfalls(desc, messages);
+        return result;
+    }
     const ResolvedInput& normal = result.inputs[gpu::INPUT_NORMAL];
     const bool plainNormal =
         normal.kind == Source::Constant && normal.constant.x == 0.f && normal.constant.y == 0.f;
-    if (normal.kind != Source::Texture && !plainNormal && messages)
+    if (normal.kind != Source::Texture && !plainNormal)
         messages(Severity::Warning, desc.name, "material input normal is used from textures alone; ignored");
     return result;
 }
 
-gpu::MaterialRecord describeMaterial(const ResolvedMaterial& material, const TextureStore& textures,
-                                     std::vector<gpu::InputNode>& nodes) {
-    gpu::MaterialRecord record{};
+MaterialRow describeMaterial(const ResolvedMaterial& material, const TextureStore& textures) {
+    MaterialRow row;
+    row.flags = materialFlags(material, textures);
+    row.interior = material.interior;
+    row.subsurface = material.subsurface;
     for (size_t i = 0; i < material.inputs.size(); ++i) {
         const ResolvedInput& input = material.inputs[i];
-        record.constants[i] = input.constant;
-        record.nodes[i] = gpu::NO_INDEX;
+        row.constants.push_back(input.constant);
         if (input.kind == Source::Constant) continue;
-        record.nodes[i] = uint32_t(nodes.size());
-        nodes.push_back(input.node);
+        row.nodes.push_back(input.node);
+        row.nodes.back().target = uint32_t(i);
         if (input.kind != Source::Texture) continue;
         const TextureRange range = textures.range(input.texture);
-        nodes.back().texture = range.first;
-        nodes.back().udimTiles = range.udimTiles;
+        row.nodes.back().texture = range.first;
+        row.nodes.back().udimTiles = range.udimTiles;
     }
-    record.flags = opacityFlags(material, textures);
-    if (material.specularWorkflow) record.flags |= gpu::MATERIAL_SPECULAR_WORKFLOW;
-    if (isEmissive(material)) record.flags |= gpu::MATERIAL_EMISSIVE;
-    if (!nodes.empty()) record.flags |= gpu::MATERIAL_HAS_NODES;
-    return record;
+    return row;
 }
 
 bool isEmissive(const ResolvedMaterial& material) {
-    const ResolvedInput& input = material.inputs[gpu::INPUT_EMISSIVE_COLOR];
-    return input.kind != Source::Constant || glm::vec3(input.constant) != glm::vec3(0.f);
+    const ResolvedInput& color = material.inputs[gpu::INPUT_EMISSION_COLOR];
+    const bool colored = color.kind != Source::Constant || glm::vec3(color.constant) != glm::vec3(0.f);
+    return colored && (material.model != MaterialModel::OpenPbr ||
+                       mayExceed(material.inputs[gpu::INPUT_EMISSION_LUMINANCE], 0.f));
 }
 
 } // namespace hipr

@@ -2,7 +2,6 @@
 /// From MaterialDesc to the data kernels read: checking, texture look-up, flags.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "renderer/api/material.h"
@@ -21,19 +20,29 @@ struct ResolvedInput {
 };
 
 struct ResolvedMaterial {
-    std::array<ResolvedInput, gpu::INPUT_COUNT> inputs;
+    MaterialModel model = MaterialModel::UsdPreviewSurface;
+    std::vector<ResolvedInput> inputs; ///< by gpu::INPUT_*: gpu::PREVIEW_INPUT_COUNT or gpu::INPUT_COUNT
     bool specularWorkflow = false;
+    bool thinWalled = false;
+    gpu::MediumRecord interior{}, subsurface{};
     OpacityMode opacityMode = OpacityMode::Transparent;
 };
 
 /// Checks a description and acquires its textures. What is out of range is clamped; all of it is told in one
-/// message.
+/// message, and so is what has no effect.
 ResolvedMaterial resolveMaterial(const MaterialDesc& desc, NameTable& names, TextureStore& textures,
                                  const MessageSink& messages);
 
-/// The record (inputNodes is left to the caller) and its nodes. Valid after TextureStore::commit().
-gpu::MaterialRecord describeMaterial(const ResolvedMaterial& material, const TextureStore& textures,
-                                     std::vector<gpu::InputNode>& nodes);
+/// What kernels read of a material, without addresses.
+struct MaterialRow {
+    uint32_t flags = 0;
+    gpu::MediumRecord interior{}, subsurface{};
+    std::vector<glm::vec4> constants;
+    std::vector<gpu::InputNode> nodes;
+};
+
+/// Valid after TextureStore::commit().
+MaterialRow describeMaterial(const ResolvedMaterial& material, const TextureStore& textures);
 
 bool isEmissive(const ResolvedMaterial& material);
 

@@ -6,16 +6,72 @@
 
 #include "renderer/shading/albedo.h"
 #include "renderer/shading/material_inputs.h"
+#include "renderer/shading/openpbr_albedo.h"
 
 namespace hipr {
 
 using gpu::InputNode;
 using gpu::MaterialRecord;
 
+namespace {
+
+uint32_t doubled(uint32_t capacity, uint32_t least) {
+    while (capacity < least)
+        capacity = capacity ? capacity * 2 : 64;
+    return capacity;
+}
+
+/// The rows of all materials of one model, in slots of one size: constants, then nodes. Grows by doubling.
+class RowStore {
+public:
+    explicit RowStore(uint32_t inputs) : _inputs(inputs) {}
+
+    uint32_t take() {
+        if (_free.empty()) return _used++;
+        const uint32_t slot = _free.back();
+        _free.pop_back();
+        return slot;
+    }
+    void giveBack(uint32_t slot) { _free.push_back(slot); }
+    bool used() const { return _used > 0; }
+
+    /// Makes room for all slots taken. Returns whether all rows are to be written anew.
+    bool grow(Device& device) {
+        if (_used <= _capacity) return false;
+        const uint32_t capacity = doubled(_capacity, _used);
+        _buffer = device.createBuffer(capacity * size(), MemoryUse::Device, "materials");
+        _capacity = capacity;
+        return true;
+    }
+
+    void write(Device& device, uint32_t slot, const MaterialRow& row, MaterialRecord& record) {
+        const uint64_t constants = slot * size(), nodes = constants + _inputs * sizeof(glm::vec4);
+        record.constants = _buffer.address() + constants;
+        record.nodes = _buffer.address() + nodes;
+        record.nodeCount = uint32_t(row.nodes.size());
+        record.flags = row.flags;
+        record.interior = row.interior;
+        record.subsurface = row.subsurface;
+        device.upload(_buffer, row.constants.data(), row.constants.size() * sizeof(glm::vec4), constants);
+        if (!row.nodes.empty())
+            device.upload(_buffer, row.nodes.data(), row.nodes.size() * sizeof(InputNode), nodes);
+    }
+
+private:
+    uint64_t size() const { return _inputs * (sizeof(glm::vec4) + sizeof(InputNode)); }
+
+    uint32_t _inputs;
+    uint32_t _used = 0, _capacity = 0; ///< slots
+    std::vector<uint32_t> _free;
+    Buffer _buffer;
+};
+
+} // namespace
+
 struct MaterialTable::Impl {
     struct Material {
         ResolvedMaterial inputs;
-        uint32_t index;
+        uint32_t index, row;
         bool nonOpaque = false;
     };
 
@@ -28,33 +84,41 @@ struct MaterialTable::Impl {
     std::map<MaterialId, Material> materials; ///< the fallback look is MaterialId::None
     std::vector<uint32_t> freeIndices;
     uint32_t used = 0;     ///< records in use or free below
-    uint32_t capacity = 0; ///< records the buffers hold
+    uint32_t capacity = 0; ///< records the buffer holds
+    RowStore previewRows{gpu::PREVIEW_INPUT_COUNT}, openPbrRows{gpu::INPUT_COUNT};
     std::set<MaterialId> dirty;
+    bool moved = false; ///< everything is to be written anew, even if a commit fails in between
     uint32_t textureVersion = 0;
-    Buffer records, nodes, albedo;
+    Buffer records, albedo, openPbrAlbedo;
 
+    RowStore& rows(MaterialModel model) {
+        return model == MaterialModel::OpenPbr ? openPbrRows : previewRows;
+    }
     void grow();
     void write(Material& material);
     void releaseTextures(const ResolvedMaterial& inputs);
 };
 
 void MaterialTable::Impl::grow() {
-    while (capacity < used)
-        capacity = capacity ? capacity * 2 : 64;
-    records = device.createBuffer(capacity * sizeof(MaterialRecord), MemoryUse::Device, "materials");
-    nodes =
-        device.createBuffer(capacity * gpu::INPUT_COUNT * sizeof(InputNode), MemoryUse::Device, "materials");
+    if (previewRows.grow(device)) moved = true;
+    if (openPbrRows.grow(device)) moved = true;
+    if (openPbrRows.used() && !openPbrAlbedo) {
+        const std::vector<float>& table = openPbrAlbedoTable();
+        openPbrAlbedo = device.createFrom(table.data(), table.size(), "materials");
+    }
+    if (used <= capacity) return;
+    const uint32_t more = doubled(capacity, used);
+    records = device.createBuffer(more * sizeof(MaterialRecord), MemoryUse::Device, "materials");
+    capacity = more;
+    moved = true;
 }
 
 void MaterialTable::Impl::write(Material& material) {
-    const uint64_t firstNode = uint64_t(material.index) * gpu::INPUT_COUNT * sizeof(InputNode);
-    std::vector<InputNode> nodeTable;
-    MaterialRecord record = describeMaterial(material.inputs, textures, nodeTable);
-    record.inputNodes = nodes.address() + firstNode;
+    const MaterialRow row = describeMaterial(material.inputs, textures);
+    MaterialRecord record{};
+    rows(material.inputs.model).write(device, material.row, row, record);
     material.nonOpaque = record.flags & gpu::MATERIAL_NON_OPAQUE;
     device.upload(records, &record, sizeof record, material.index * sizeof record);
-    if (!nodeTable.empty())
-        device.upload(nodes, nodeTable.data(), nodeTable.size() * sizeof(InputNode), firstNode);
 }
 
 void MaterialTable::Impl::releaseTextures(const ResolvedMaterial& inputs) {
@@ -83,8 +147,13 @@ void MaterialTable::set(MaterialId id, const MaterialDesc& desc) {
     ResolvedMaterial inputs = resolveMaterial(desc, _impl->names, _impl->textures, _impl->device.messages());
     const auto known = _impl->materials.find(id);
     if (known != _impl->materials.end()) {
-        _impl->releaseTextures(known->second.inputs);
-        known->second.inputs = std::move(inputs);
+        Impl::Material& material = known->second;
+        _impl->releaseTextures(material.inputs);
+        if (material.inputs.model != inputs.model) {
+            _impl->rows(material.inputs.model).giveBack(material.row);
+            material.row = _impl->rows(inputs.model).take();
+        }
+        material.inputs = std::move(inputs);
     } else {
         uint32_t index = _impl->used;
         if (_impl->freeIndices.empty()) {
@@ -93,7 +162,8 @@ void MaterialTable::set(MaterialId id, const MaterialDesc& desc) {
             index = _impl->freeIndices.back();
             _impl->freeIndices.pop_back();
         }
-        _impl->materials[id] = {std::move(inputs), index};
+        const uint32_t row = _impl->rows(inputs.model).take();
+        _impl->materials[id] = {std::move(inputs), index, row};
     }
     _impl->dirty.insert(id);
 }
@@ -103,6 +173,7 @@ void MaterialTable::remove(MaterialId id) {
     if (id == MaterialId::None || known == _impl->materials.end()) return;
     _impl->releaseTextures(known->second.inputs);
     _impl->freeIndices.push_back(known->second.index);
+    _impl->rows(known->second.inputs.model).giveBack(known->second.row);
     _impl->dirty.erase(id);
     _impl->materials.erase(known);
 }
@@ -130,12 +201,13 @@ bool MaterialTable::emissive(MaterialId id) const {
 }
 
 bool MaterialTable::commit() {
-    const bool all = _impl->used > _impl->capacity || _impl->textureVersion != _impl->textures.version();
-    if (_impl->used > _impl->capacity) _impl->grow();
+    _impl->grow();
+    const bool all = _impl->moved || _impl->textureVersion != _impl->textures.version();
     const bool any = all || !_impl->dirty.empty();
     for (auto& [id, material] : _impl->materials)
         if (all || _impl->dirty.count(id)) _impl->write(material);
     _impl->dirty.clear();
+    _impl->moved = false;
     _impl->textureVersion = _impl->textures.version();
     return any;
 }
@@ -143,6 +215,7 @@ bool MaterialTable::commit() {
 void MaterialTable::describe(gpu::SceneRecord& scene) const {
     scene.materials = _impl->records.address();
     scene.specularAlbedo = _impl->albedo.address();
+    scene.openPbrAlbedo = _impl->openPbrAlbedo ? _impl->openPbrAlbedo.address() : 0;
 }
 
 } // namespace hipr

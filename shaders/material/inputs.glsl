@@ -1,4 +1,4 @@
-// The inputs of a UsdPreviewSurface at a hit.
+// The inputs of a material at a hit.
 #ifndef HIPR_MATERIAL_INPUTS_GLSL
 #define HIPR_MATERIAL_INPUTS_GLSL
 #extension GL_EXT_control_flow_attributes : require
@@ -14,19 +14,42 @@ struct ShadingPoint {
     vec2 uv; // barycentric weights of vertices 1 and 2
 };
 
+// By OpenPBR's names; a UsdPreviewSurface has those above baseWeight.
 struct MaterialInputs {
-    vec3 diffuseColor;
-    vec3 emissiveColor;
+    vec3 baseColor;
+    vec3 emissionColor;
     vec3 specularColor;
-    float metallic;
+    float metalness;
     float roughness;
-    float clearcoat;
-    float clearcoatRoughness;
+    float coatWeight;
+    float coatRoughness;
     float opacity;
     float opacityThreshold;
     float ior;
     vec3 normal;     // tangent space
     vec4 stEdges;    // the normal map's texture coordinates: differences of corners 1 and 2 to corner 0; 0: no normal map
+
+    float baseWeight;
+    float diffuseRoughness;
+    float specularWeight;
+    float anisotropy;
+    float transmissionWeight;
+    vec3 transmissionColor;
+    float subsurfaceWeight;
+    vec3 subsurfaceColor;
+    float subsurfaceAnisotropy;
+    float fuzzWeight;
+    vec3 fuzzColor;
+    float fuzzRoughness;
+    vec3 coatColor;
+    float coatAnisotropy;
+    float coatIor;
+    float coatDarkening;
+    float emissionLuminance;
+    float filmWeight;
+    float filmThickness; // micrometres
+    float filmIor;
+    vec4 tangentEdges; // as stEdges, of the coordinates that stretched highlights follow
 };
 
 ShadingPoint shadingPoint(SceneRecord scene, Hit hit) {
@@ -74,67 +97,105 @@ vec4 sampleTextureNode(SceneRecord scene, InputNode node, vec2 st) {
     return sampleTexture(texture, st) * node.scale + node.bias;
 }
 
-// The constants of all inputs: straight loads of just the channels in use, no loop.
-MaterialInputs constantInputs(SceneRecord scene, uint material) {
-    MaterialRef records = MaterialRef(scene.materials);
+// The constants of a row: straight loads of just the channels in use, no loop.
+MaterialInputs constantInputs(uint64_t row, bool openPbr) {
+    Vec4Ref constants = Vec4Ref(row);
     MaterialInputs inputs;
-    inputs.diffuseColor = records.v[material].constants[INPUT_DIFFUSE_COLOR].rgb;
-    inputs.emissiveColor = records.v[material].constants[INPUT_EMISSIVE_COLOR].rgb;
-    inputs.specularColor = records.v[material].constants[INPUT_SPECULAR_COLOR].rgb;
-    inputs.metallic = records.v[material].constants[INPUT_METALLIC].x;
-    inputs.roughness = records.v[material].constants[INPUT_ROUGHNESS].x;
-    inputs.clearcoat = records.v[material].constants[INPUT_CLEARCOAT].x;
-    inputs.clearcoatRoughness = records.v[material].constants[INPUT_CLEARCOAT_ROUGHNESS].x;
-    inputs.opacity = records.v[material].constants[INPUT_OPACITY].x;
-    inputs.opacityThreshold = records.v[material].constants[INPUT_OPACITY_THRESHOLD].x;
-    inputs.ior = records.v[material].constants[INPUT_IOR].x;
-    inputs.normal = records.v[material].constants[INPUT_NORMAL].xyz;
-    inputs.stEdges = vec4(0.0);
+    inputs.baseColor = constants.v[INPUT_BASE_COLOR].rgb;
+    inputs.emissionColor = constants.v[INPUT_EMISSION_COLOR].rgb;
+    inputs.specularColor = constants.v[INPUT_SPECULAR_COLOR].rgb;
+    inputs.metalness = constants.v[INPUT_BASE_METALNESS].x;
+    inputs.roughness = constants.v[INPUT_SPECULAR_ROUGHNESS].x;
+    inputs.coatWeight = constants.v[INPUT_COAT_WEIGHT].x;
+    inputs.coatRoughness = constants.v[INPUT_COAT_ROUGHNESS].x;
+    inputs.opacity = constants.v[INPUT_OPACITY].x;
+    inputs.opacityThreshold = constants.v[INPUT_OPACITY_THRESHOLD].x;
+    inputs.ior = constants.v[INPUT_SPECULAR_IOR].x;
+    inputs.normal = constants.v[INPUT_NORMAL].xyz;
+    inputs.stEdges = inputs.tangentEdges = vec4(0.0);
+    if (!openPbr) return inputs;
+    inputs.baseWeight = constants.v[INPUT_BASE_WEIGHT].x;
+    inputs.diffuseRoughness = constants.v[INPUT_BASE_DIFFUSE_ROUGHNESS].x;
+    inputs.specularWeight = constants.v[INPUT_SPECULAR_WEIGHT].x;
+    inputs.anisotropy = constants.v[INPUT_SPECULAR_ANISOTROPY].x;
+    inputs.transmissionWeight = constants.v[INPUT_TRANSMISSION_WEIGHT].x;
+    inputs.transmissionColor = constants.v[INPUT_TRANSMISSION_COLOR].rgb;
+    inputs.subsurfaceWeight = constants.v[INPUT_SUBSURFACE_WEIGHT].x;
+    inputs.subsurfaceColor = constants.v[INPUT_SUBSURFACE_COLOR].rgb;
+    inputs.subsurfaceAnisotropy = constants.v[INPUT_SUBSURFACE_ANISOTROPY].x;
+    inputs.fuzzWeight = constants.v[INPUT_FUZZ_WEIGHT].x;
+    inputs.fuzzColor = constants.v[INPUT_FUZZ_COLOR].rgb;
+    inputs.fuzzRoughness = constants.v[INPUT_FUZZ_ROUGHNESS].x;
+    inputs.coatColor = constants.v[INPUT_COAT_COLOR].rgb;
+    inputs.coatAnisotropy = constants.v[INPUT_COAT_ANISOTROPY].x;
+    inputs.coatIor = constants.v[INPUT_COAT_IOR].x;
+    inputs.coatDarkening = constants.v[INPUT_COAT_DARKENING].x;
+    inputs.emissionLuminance = constants.v[INPUT_EMISSION_LUMINANCE].x;
+    inputs.filmWeight = constants.v[INPUT_THIN_FILM_WEIGHT].x;
+    inputs.filmThickness = constants.v[INPUT_THIN_FILM_THICKNESS].x;
+    inputs.filmIor = constants.v[INPUT_THIN_FILM_IOR].x;
     return inputs;
 }
 
-// Evaluates inputs first..last (INPUT_*) of a material; the others keep their constants. One loop with one texture
-// look-up inside keeps the kernel small: see docs/architecture.md.
-MaterialInputs evaluateInputs(SceneRecord scene, ShadingPoint point, uint material, uint first, uint last) {
-    MaterialInputs inputs = constantInputs(scene, material);
-    MaterialRef records = MaterialRef(scene.materials);
-    if ((records.v[material].flags & MATERIAL_HAS_NODES) == 0u) return inputs;
-    InputNodeRef nodes = InputNodeRef(records.v[material].inputNodes);
+void setInput(inout MaterialInputs inputs, uint target, vec4 value) {
+    switch (target) {
+    case INPUT_BASE_COLOR: inputs.baseColor = value.rgb; break;
+    case INPUT_EMISSION_COLOR: inputs.emissionColor = value.rgb; break;
+    case INPUT_SPECULAR_COLOR: inputs.specularColor = value.rgb; break;
+    case INPUT_BASE_METALNESS: inputs.metalness = value.x; break;
+    case INPUT_SPECULAR_ROUGHNESS: inputs.roughness = value.x; break;
+    case INPUT_COAT_WEIGHT: inputs.coatWeight = value.x; break;
+    case INPUT_COAT_ROUGHNESS: inputs.coatRoughness = value.x; break;
+    case INPUT_OPACITY: inputs.opacity = value.x; break;
+    case INPUT_OPACITY_THRESHOLD: inputs.opacityThreshold = value.x; break;
+    case INPUT_SPECULAR_IOR: inputs.ior = value.x; break;
+    case INPUT_NORMAL: inputs.normal = value.xyz; break;
+    case INPUT_BASE_WEIGHT: inputs.baseWeight = value.x; break;
+    case INPUT_BASE_DIFFUSE_ROUGHNESS: inputs.diffuseRoughness = value.x; break;
+    case INPUT_SPECULAR_WEIGHT: inputs.specularWeight = value.x; break;
+    case INPUT_SPECULAR_ANISOTROPY: inputs.anisotropy = value.x; break;
+    case INPUT_TRANSMISSION_WEIGHT: inputs.transmissionWeight = value.x; break;
+    case INPUT_TRANSMISSION_COLOR: inputs.transmissionColor = value.rgb; break;
+    case INPUT_SUBSURFACE_WEIGHT: inputs.subsurfaceWeight = value.x; break;
+    case INPUT_SUBSURFACE_COLOR: inputs.subsurfaceColor = value.rgb; break;
+    case INPUT_SUBSURFACE_ANISOTROPY: inputs.subsurfaceAnisotropy = value.x; break;
+    case INPUT_FUZZ_WEIGHT: inputs.fuzzWeight = value.x; break;
+    case INPUT_FUZZ_COLOR: inputs.fuzzColor = value.rgb; break;
+    case INPUT_FUZZ_ROUGHNESS: inputs.fuzzRoughness = value.x; break;
+    case INPUT_COAT_COLOR: inputs.coatColor = value.rgb; break;
+    case INPUT_COAT_ANISOTROPY: inputs.coatAnisotropy = value.x; break;
+    case INPUT_COAT_IOR: inputs.coatIor = value.x; break;
+    case INPUT_COAT_DARKENING: inputs.coatDarkening = value.x; break;
+    case INPUT_EMISSION_LUMINANCE: inputs.emissionLuminance = value.x; break;
+    case INPUT_THIN_FILM_WEIGHT: inputs.filmWeight = value.x; break;
+    case INPUT_THIN_FILM_THICKNESS: inputs.filmThickness = value.x; break;
+    case INPUT_THIN_FILM_IOR: inputs.filmIor = value.x; break;
+    }
+}
+
+// The inputs of a material; of those that nodes feed, first..last (INPUT_*) are evaluated and the others keep their
+// constants. One loop with one texture look-up inside keeps the kernel small: see docs/architecture.md.
+MaterialInputs evaluateInputs(SceneRecord scene, ShadingPoint point, MaterialRecord material, uint first, uint last) {
+    MaterialInputs inputs = constantInputs(material.constants, (material.flags & MATERIAL_OPENPBR) != 0u);
+    InputNodeRef nodes = InputNodeRef(material.nodes);
     PrimvarCorners corners;
     uint cornersName = NO_INDEX;
-    [[dont_unroll]] for (uint i = first; i <= last; ++i) {
-        uint nodeIndex = records.v[material].nodes[i];
-        if (nodeIndex == NO_INDEX) continue;
-        InputNode node = nodes.v[nodeIndex];
+    [[dont_unroll]] for (uint k = 0u; k < material.nodeCount; ++k) {
+        InputNode node = nodes.v[k];
+        if (node.target < first || node.target > last) continue;
         if (node.primvar != cornersName) {
             corners = findPrimvar(point.instance, point.geometry, point.primitive, point.vertices, node.primvar);
             cornersName = node.primvar;
         }
+        vec2 st0 = transformSt(node, corners.a.xy);
+        vec4 edges = vec4(transformSt(node, corners.b.xy) - st0, transformSt(node, corners.c.xy) - st0);
+        if (node.target == INPUT_NORMAL && node.texture != NO_INDEX) inputs.stEdges = edges;
+        if (node.target == INPUT_TANGENT) inputs.tangentEdges = edges;
         vec4 primvar = interpolatePrimvar(corners, point.uv);
-        vec4 value;
-        if (node.texture != NO_INDEX) {
+        vec4 value = corners.found ? primvar : node.fallback;
+        if (node.texture != NO_INDEX)
             value = sampleTextureNode(scene, node, transformSt(node, corners.found ? primvar.xy : node.uvFallback));
-            if (i == INPUT_NORMAL) {
-                vec2 st0 = transformSt(node, corners.a.xy);
-                inputs.stEdges = vec4(transformSt(node, corners.b.xy) - st0, transformSt(node, corners.c.xy) - st0);
-            }
-        } else {
-            value = corners.found ? primvar : node.fallback;
-        }
-        value = selectChannel(value, node.channel);
-        switch (i) {
-        case INPUT_DIFFUSE_COLOR: inputs.diffuseColor = value.rgb; break;
-        case INPUT_EMISSIVE_COLOR: inputs.emissiveColor = value.rgb; break;
-        case INPUT_SPECULAR_COLOR: inputs.specularColor = value.rgb; break;
-        case INPUT_METALLIC: inputs.metallic = value.x; break;
-        case INPUT_ROUGHNESS: inputs.roughness = value.x; break;
-        case INPUT_CLEARCOAT: inputs.clearcoat = value.x; break;
-        case INPUT_CLEARCOAT_ROUGHNESS: inputs.clearcoatRoughness = value.x; break;
-        case INPUT_OPACITY: inputs.opacity = value.x; break;
-        case INPUT_OPACITY_THRESHOLD: inputs.opacityThreshold = value.x; break;
-        case INPUT_IOR: inputs.ior = value.x; break;
-        case INPUT_NORMAL: inputs.normal = value.xyz; break;
-        }
+        setInput(inputs, node.target, selectChannel(value, node.channel));
     }
     return inputs;
 }

@@ -10,21 +10,24 @@
 // of single precision. Mirrors and clear glass are such lobes; no lobe is a delta distribution.
 const float MIN_ALPHA = 2e-4;
 
-// Density of microfacet normals (Walter eq. 33), written in sines so that no small difference is taken.
-float ggxDensity(vec3 h, float alpha) {
-    float t = dot(h.xy, h.xy) / (alpha * alpha) + h.z * h.z;
-    return 1.0 / (PI * alpha * alpha * t * t);
+// Density of microfacet normals (Walter eq. 33, stretched along x and y), written in sines so that no small difference is
+// taken.
+float ggxDensity(vec3 h, vec2 alpha) {
+    vec2 slope = h.xy / alpha;
+    float t = dot(slope, slope) + h.z * h.z;
+    return 1.0 / (PI * alpha.x * alpha.y * t * t);
 }
 
-// Smith's Lambda (Heitz 2014, eq. 72): masking is 1 / (1 + Lambda).
-float ggxLambda(vec3 w, float alpha) {
-    return 0.5 * sqrt(1.0 + alpha * alpha * dot(w.xy, w.xy) / (w.z * w.z)) - 0.5;
+// Smith's Lambda (Heitz 2014, eqs. 72 and 86): masking is 1 / (1 + Lambda).
+float ggxLambda(vec3 w, vec2 alpha) {
+    vec2 slope = alpha * w.xy;
+    return 0.5 * sqrt(1.0 + dot(slope, slope) / (w.z * w.z)) - 0.5;
 }
 
 // A normal visible from `w` (w.z > 0): density ggxDensity(h) * max(0, dot(w, h)) / ((1 + Lambda(w)) * w.z).
 // J. Dupuy and A. Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023 (same distribution as
 // E. Heitz, "Sampling the GGX Distribution of Visible Normals", JCGT 7(4), 2018).
-vec3 sampleVisibleNormal(vec3 w, float alpha, vec2 u) {
+vec3 sampleVisibleNormal(vec3 w, vec2 alpha, vec2 u) {
     vec3 stretched = normalize(vec3(alpha * w.xy, w.z));
     float phi = 2.0 * PI * u.x;
     float z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;

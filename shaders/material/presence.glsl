@@ -7,8 +7,8 @@
 float evaluatePresence(SceneRecord scene, Hit hit) {
     ShadingPoint point = shadingPoint(scene, hit);
     uint material = materialIndex(scene, point);
-    uint flags = MaterialRef(scene.materials).v[material].flags;
-    if ((flags & MATERIAL_PRESENCE) == 0u) return 1.0;
-    return presenceOf(flags, evaluateInputs(scene, point, material, INPUT_OPACITY, INPUT_OPACITY_THRESHOLD));
+    MaterialRecord record = MaterialRef(scene.materials).v[material];
+    if ((record.flags & MATERIAL_PRESENCE) == 0u) return 1.0;
+    return presenceOf(record.flags, evaluateInputs(scene, point, record, INPUT_OPACITY, INPUT_OPACITY_THRESHOLD));
 }
 #endif

@@ -5,33 +5,8 @@
 #ifndef HIPR_MATERIAL_SURFACE_GLSL
 #define HIPR_MATERIAL_SURFACE_GLSL
 #include "material/inputs.glsl"
-#include "material/microfacet.glsl"
-
-struct Surface {
-    vec3 position;
-    vec3 ng;            // geometric normal on the viewer's side, unit length
-    vec3 ns;            // shading normal on the viewer's side, unit length
-    vec3 emission;      // radiance
-    float opacity;      // part of light the surface stops; the rest goes straight on
-    vec3 albedo;        // colour of all scattered light, for the albedo AOV
-    bool frontFacing;
-
-    vec3 diffuse;       // albedo of the diffuse lobe without the specular lobe above it
-    vec3 f0;            // reflectance at normal incidence of the specular lobe
-    float roughness;
-    float alpha;        // GGX slope parameter, roughness^2
-    float coat;         // weight of the clear coat
-    float coatRoughness;
-    float coatAlpha;
-    float glass;        // weight of the refracting interface, 0 for opaque materials; the other lobes weigh 1 - glass
-    float eta;          // index of refraction beyond the surface over that on the viewer's side
-
-    uint64_t albedoTable;
-    vec3 specularOut;   // directional albedo of the specular lobe towards the viewer
-    vec3 specularMean;  // its mean over all directions
-    float coatOut;      // directional albedo of the coat, weight included
-    vec4 lobeChance;    // of sampling coat, specular, diffuse, glass; sums to 1
-};
+#include "material/openpbr.glsl"
+#include "material/preview.glsl"
 
 // Front-facing geometric normal of a triangle; `mirrored` transforms turn the winding over.
 vec3 triangleNormal(vec3 e1, vec3 e2, bool mirrored) {
@@ -49,14 +24,20 @@ vec3 bendNormal(vec3 n, vec3 ng, vec3 wo) {
     return normalizeOr(wo + normalizeOr(mirror + (least - height) * ng, ng), ng);
 }
 
+// Along the texture coordinate s on the surface whose normal is `n`; `otherwise` where it has no direction.
+vec3 tangentAlong(vec3 n, vec3 otherwise, vec3 e1, vec3 e2, vec4 stEdges) {
+    float det = stEdges.x * stEdges.w - stEdges.y * stEdges.z;
+    vec3 dpds = (e1 * stEdges.w - e2 * stEdges.y) * sign(det);
+    return normalizeOr(dpds - n * dot(n, dpds), otherwise);
+}
+
 // Tangent-space normal to world space. The tangent follows the texture coordinates in which the map was read
 // (st rotations of a UsdTransform2d included).
 vec3 applyNormalMap(vec3 n, vec3 mapped, vec3 e1, vec3 e2, vec4 stEdges) {
     float det = stEdges.x * stEdges.w - stEdges.y * stEdges.z;
     if (det == 0.0) return n;
-    vec3 dpds = (e1 * stEdges.w - e2 * stEdges.y) * sign(det);
+    vec3 tangent = tangentAlong(n, vec3(0.0), e1, e2, stEdges);
     vec3 dpdt = (e2 * stEdges.x - e1 * stEdges.z) * sign(det);
-    vec3 tangent = normalizeOr(dpds - n * dot(n, dpds), vec3(0.0));
     vec3 bitangent = cross(n, tangent) * (dot(cross(n, tangent), dpdt) < 0.0 ? -1.0 : 1.0);
     return normalizeOr(tangent * mapped.x + bitangent * mapped.y + n * mapped.z, n);
 }
@@ -85,50 +66,16 @@ void setGeometry(inout Surface s, ShadingPoint point, vec3 wo, out vec3 e1, out 
     s.frontFacing = dot(s.ng, wo) >= 0.0;
 }
 
-// Index of refraction a texture may ask for, kept off 1, where refraction has no direction of its own.
-float usableIor(float ior) {
-    ior = clamp(ior, 0.1, 10.0);
-    return abs(ior - 1.0) < MIN_IOR_STEP ? 1.0 + MIN_IOR_STEP : ior;
-}
-
-// Parameters of the lobes: UsdPreviewSurface Specification 2.6, "UsdPreviewSurface".
-void setLobes(inout Surface s, MaterialInputs inputs, uint flags) {
-    float metallic = clamp(inputs.metallic, 0.0, 1.0);
-    vec3 color = clamp(inputs.diffuseColor, 0.0, 1.0);
-    float ior = usableIor(inputs.ior);
-    float index = clamp(inputs.ior, 0.0, 100.0); // 0, a way to ask for a full mirror, included
-    float normalIncidence = (1.0 - index) / (1.0 + index);
-    bool specularWorkflow = (flags & MATERIAL_SPECULAR_WORKFLOW) != 0u;
-    bool refractive = (flags & MATERIAL_REFRACTIVE) != 0u;
-    s.f0 = specularWorkflow ? clamp(inputs.specularColor, 0.0, 1.0)
-                            : mix(vec3(normalIncidence * normalIncidence), color, metallic);
-    s.diffuse = specularWorkflow ? color : color * (1.0 - metallic);
-    s.roughness = clamp(inputs.roughness, 0.0, 1.0);
-    s.alpha = max(s.roughness * s.roughness, MIN_ALPHA);
-    s.glass = refractive ? 1.0 - clamp(inputs.opacity, 0.0, 1.0) : 0.0;
-    s.eta = s.frontFacing ? ior : 1.0 / ior;
-    s.coat = refractive && !s.frontFacing ? 0.0 : clamp(inputs.clearcoat, 0.0, 1.0); // a coat is on the outside only
-    s.coatRoughness = clamp(inputs.clearcoatRoughness, 0.0, 1.0);
-    s.coatAlpha = max(s.coatRoughness * s.coatRoughness, MIN_ALPHA);
-}
-
-const float COAT_F0 = 0.04; // index of refraction 1.5
-
-// What depends on the viewer: albedos of the lobes seen from `cosine`, and how often each is sampled.
-void setViewer(inout Surface s, float cosine) {
-    vec2 towards = specularAlbedo(s.albedoTable, cosine, s.roughness);
-    vec2 mean = meanSpecularAlbedo(s.albedoTable, s.roughness);
-    vec2 coat = specularAlbedo(s.albedoTable, cosine, s.coatRoughness);
-    s.specularOut = s.f0 * towards.x + towards.y;
-    s.specularMean = s.f0 * mean.x + mean.y;
-    s.coatOut = s.coat * (COAT_F0 * coat.x + coat.y);
-    vec3 diffuse = s.diffuse * (1.0 - s.specularOut);
-    float below = 1.0 - s.coatOut;
-    s.albedo = s.coatOut + below * mix(s.specularOut + diffuse, vec3(1.0), s.glass);
-    s.lobeChance = vec4(s.coatOut, below * (1.0 - s.glass) * luminance(s.specularOut),
-                        below * (1.0 - s.glass) * luminance(diffuse), below * s.glass);
-    float sum = dot(s.lobeChance, vec4(1.0));
-    s.lobeChance = sum > 1e-6 ? s.lobeChance / sum : vec4(0.0, 0.0, 1.0, 0.0);
+// The parameters of the lobes, for a viewer whose direction has the cosine `cosine`.
+void setLobes(inout Surface s, MaterialInputs inputs, uint flags, float cosine) {
+    s.openPbr = (flags & MATERIAL_OPENPBR) != 0u;
+    if (s.openPbr) {
+        setOpenPbrLobes(s, inputs, flags);
+        setOpenPbrViewer(s, clamp(inputs.coatDarkening, 0.0, 1.0), cosine);
+    } else {
+        setPreviewLobes(s, inputs, flags);
+        setPreviewViewer(s, cosine);
+    }
 }
 
 // The surface at `hit`, seen along `ray` (unit direction).
@@ -139,12 +86,10 @@ Surface evaluateSurface(SceneRecord scene, Hit hit, Ray ray) {
     vec3 e1, e2;
     setGeometry(s, point, wo, e1, e2);
 
-    uint material = materialIndex(scene, point);
-    uint flags = MaterialRef(scene.materials).v[material].flags;
+    s.material = materialIndex(scene, point);
+    MaterialRecord material = MaterialRef(scene.materials).v[s.material];
     MaterialInputs inputs = evaluateInputs(scene, point, material, 0u, INPUT_COUNT - 1u);
-    s.opacity = presenceOf(flags, inputs);
-    s.emission = max(inputs.emissiveColor, 0.0);
-    setLobes(s, inputs, flags);
+    s.opacity = presenceOf(material.flags, inputs);
 
     s.ns = interpolatedNormal(point, s.ng);
     if (inputs.stEdges != vec4(0.0)) s.ns = applyNormalMap(s.ns, inputs.normal, e1, e2, inputs.stEdges);
@@ -153,8 +98,11 @@ Surface evaluateSurface(SceneRecord scene, Hit hit, Ray ray) {
         s.ns = -s.ns;
     }
     s.ns = bendNormal(s.ns, s.ng, wo);
+    s.tangent = frameAround(s.ns)[0];
+    if (inputs.tangentEdges != vec4(0.0)) s.tangent = tangentAlong(s.ns, s.tangent, e1, e2, inputs.tangentEdges);
     s.albedoTable = scene.specularAlbedo;
-    setViewer(s, dot(s.ns, wo));
+    s.openPbrTable = scene.openPbrAlbedo;
+    setLobes(s, inputs, material.flags, dot(s.ns, wo));
     return s;
 }
 #endif

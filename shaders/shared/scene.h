@@ -93,6 +93,7 @@ struct SceneRecord {
     uint flags;              // SCENE_*
     uint pad;
     uint64_t specularAlbedo; // vec2[]: see renderer/shading/albedo.h
+    uint64_t openPbrAlbedo;  // tables of renderer/shading/openpbr_albedo.h; 0 without a material of that model
 };
 
 HIPR_CONST uint SCENE_HAS_NON_OPAQUE = 1u;

@@ -73,6 +73,8 @@ struct PathState {
     uint pixel;              // x + y * 65536
     uint sampleIndex;
     uint history;            // how it scattered so far: HISTORY_* in hipr.h
+    uint medium;             // MEDIUM_*
+    uint mediumColor;        // colour of a subsurface medium where the path entered it: packMediumColor() in medium.glsl
 };
 
 // What a shadow ray carries if it arrives.
@@ -139,6 +141,8 @@ HIPR_CONST uint QUEUE_COUNT = 6u;
 
 // Surfaces one path may pass straight through, and those one shadow ray may; longer paths end, longer rays are blocked.
 HIPR_CONST uint PATH_PASS_LIMIT = 256u;
+// Events one path may have without being scattered by a surface while it is in a scattering medium.
+HIPR_CONST uint MEDIUM_STEP_LIMIT = 1024u;
 HIPR_CONST uint SHADOW_PASS_LIMIT = 256u;
 
 struct TraceCounters {

@@ -29,6 +29,8 @@ void main() {
     path.pixel = pixel.x | pixel.y << 16;
     path.sampleIndex = tile.firstSample + local % tile.sampleCount;
     path.history = 0u;
+    path.medium = MEDIUM_NONE;
+    path.mediumColor = 0u;
 
     const vec4 u = sobol4(pixel, path.sampleIndex, 0u, trace.seed);
     const vec2 film = vec2(pixel) + 0.5 + sampleFilter(trace.pixelFilter, trace.filterWidth, u.xy);

@@ -7,6 +7,7 @@
 #include "sampling/sobol.glsl"
 #include "material/surface.glsl"
 #include "material/bsdf.glsl"
+#include "material/medium.glsl"
 #include "light/sample.glsl"
 #include "light/hit.glsl"
 #include "shared/reproject.h"
@@ -15,6 +16,9 @@
 const uint RANDOM_LIGHT = 1u; // w, which light sampling leaves alone, decides on passing through and on roulette
 const uint RANDOM_BSDF = 2u;
 const uint RANDOM_SETS = 2u;
+// Beside those: one set an event for the length of the flight to it, and one a path for its wavelength.
+const uint RANDOM_FLIGHT = 0x10000u;
+const uint RANDOM_WAVELENGTH = 0xffffu;
 
 // How far, as a share of the depth, the plane of a surface is followed to the pixel's centre.
 const float PLANE_REACH = 0.05;
@@ -29,13 +33,16 @@ struct Path {
     uvec2 pixel;
     uint sampleIndex;
     uint history;
+    uint medium;
+    uint mediumColor;
 };
 
 Path loadPath(TraceRecord trace, uint slot) {
     PathRef paths = PathRef(trace.paths);
     const uint pixel = paths.v[slot].pixel;
     return Path(slot, paths.v[slot].throughput, paths.v[slot].bsdfPdf, paths.v[slot].event, paths.v[slot].depth,
-                uvec2(pixel & 0xffffu, pixel >> 16), paths.v[slot].sampleIndex, paths.v[slot].history);
+                uvec2(pixel & 0xffffu, pixel >> 16), paths.v[slot].sampleIndex, paths.v[slot].history,
+                paths.v[slot].medium, paths.v[slot].mediumColor);
 }
 
 void storePath(TraceRecord trace, Path path) {
@@ -45,6 +52,8 @@ void storePath(TraceRecord trace, Path path) {
     paths.v[path.slot].event = path.event;
     paths.v[path.slot].depth = path.depth;
     paths.v[path.slot].history = path.history;
+    paths.v[path.slot].medium = path.medium;
+    paths.v[path.slot].mediumColor = path.mediumColor;
 }
 
 vec4 randomVector(TraceRecord trace, Path path, uint which) {
@@ -72,10 +81,28 @@ void sampleDirectLight(TraceRecord trace, SceneRecord scene, Path path, Surface 
 
 // What kind of scattering a lobe (LOBE_*) did towards `wi`, for discovery.
 uint scatterKind(Surface surface, uint lobe, vec3 wi) {
-    if (lobe == LOBE_DIFFUSE) return SCATTER_DIFFUSE;
-    if (lobe == LOBE_GLASS && dot(surface.ng, wi) < 0.0) return SCATTER_TRANSMISSION;
+    if (lobe == LOBE_DIFFUSE || lobe == LOBE_FUZZ) return SCATTER_DIFFUSE;
+    if (lobe >= LOBE_GLASS && dot(surface.ng, wi) < 0.0) return SCATTER_TRANSMISSION;
     const float roughness = lobe == LOBE_COAT ? surface.coatRoughness : surface.roughness;
     return roughness < SPECULAR_ROUGHNESS ? SCATTER_SPECULAR : SCATTER_GLOSSY;
+}
+
+// Whether a path goes on, with the weight of those that do not.
+bool survives(inout Path path, float roulette) {
+    const float survival = clamp(max(path.throughput.r, max(path.throughput.g, path.throughput.b)), 0.05, 1.0);
+    if (roulette >= survival) return false;
+    path.throughput /= survival;
+    return true;
+}
+
+// What the path travels through after a lobe has sent it towards `wi`.
+void enterMedium(inout Path path, Surface surface, uint lobe, vec3 wi) {
+    if (!surface.openPbr || surface.thinWalled || dot(wi, surface.ng) >= 0.0) return;
+    const bool below = lobe == LOBE_SUBSURFACE;
+    if (below) path.mediumColor = packMediumColor(surface.subsurfaceColor);
+    const uint kind = below ? MEDIUM_SUBSURFACE : (surface.inside ? MEDIUM_NONE : MEDIUM_INTERIOR);
+    path.medium &= MEDIUM_DISPERSED;
+    if (kind != MEDIUM_NONE) path.medium |= surface.material << MEDIUM_SHIFT | kind;
 }
 
 // Samples the next direction. False: the path ends here.
@@ -89,11 +116,8 @@ bool bounce(TraceRecord trace, inout Path path, inout Ray ray, Surface surface, 
     path.history = extendHistory(path.history, scatterKind(surface, lobe, wi), path.depth);
     ++path.depth;
     ++path.event;
-    if (path.depth >= trace.rouletteDepth) {
-        const float survival = clamp(max(path.throughput.r, max(path.throughput.g, path.throughput.b)), 0.05, 1.0);
-        if (roulette >= survival) return false;
-        path.throughput /= survival;
-    }
+    if (path.depth >= trace.rouletteDepth && !survives(path, roulette)) return false;
+    enterMedium(path, surface, lobe, wi);
     ray = Ray(offsetTowards(surface, wi), 0.0, wi, RAY_INFINITY);
     return any(greaterThan(path.throughput, vec3(0.0))) && allFinite(path.throughput);
 }
@@ -116,16 +140,56 @@ void keepSeenSurface(TraceRecord trace, Path path, Surface surface) {
     const float onPlane = dot(way, surface.ng) / dot(centre.direction, surface.ng);
     const float distance_ = abs(onPlane - level) <= PLANE_REACH * level ? onPlane : level;
     const float coat = surface.lobeChance.x, other = surface.lobeChance.y + surface.lobeChance.w, share = coat + other;
-    const float alpha = (coat * surface.coatAlpha + other * surface.alpha) / max(share, 1e-6);
+    const vec2 alphas = (coat * surface.coatAlpha + other * surface.alpha) / max(share, 1e-6);
+    const float alpha = 0.5 * (alphas.x + alphas.y);
     const float scattered = luminance(surface.albedo), emitted = luminance(surface.emission);
     PathSeenRef(trace.pathSeen).v[path.slot] =
         SeenPoint(centre.origin + distance_ * centre.direction,
                   packLook(share * scattered / max(scattered + emitted, 1e-6), alpha, 0.0));
 }
 
+// The medium a path is in.
+MediumRecord mediumOf(SceneRecord scene, Path path) {
+    const uint kind = path.medium & MEDIUM_KIND, material = (path.medium & ~MEDIUM_DISPERSED) >> MEDIUM_SHIFT;
+    MediumRecord medium = MediumRecord(vec3(0.0), 0.0, vec3(0.0), 0.0);
+    if (kind == MEDIUM_INTERIOR) medium = MaterialRef(scene.materials).v[material].interior;
+    if (kind == MEDIUM_SUBSURFACE) {
+        medium = MaterialRef(scene.materials).v[material].subsurface;
+        medium.albedo = scatteringAlbedo(unpackMediumColor(path.mediumColor), medium.anisotropy);
+    }
+    return medium;
+}
+
+// Scatters a path in the medium it is in, at the end of its flight. False: the path ends here.
+bool scatterInMedium(TraceRecord trace, MediumRecord medium, inout Path path, inout Ray ray) {
+    if (path.depth >= trace.maxDepth || path.event - path.depth >= MEDIUM_STEP_LIMIT) return false;
+    const vec4 u = randomVector(trace, path, RANDOM_BSDF);
+    if (!survives(path, u.z)) return false;
+    ++path.event;
+    const vec3 direction = samplePhase(ray.direction, medium.anisotropy, u.xy);
+    ray = Ray(ray.origin + ray.direction * ray.tMax, 0.0, direction, RAY_INFINITY);
+    path.bsdfPdf = -1.0; // no light was sampled here
+    return true;
+}
+
+// Where the index of refraction depends on the wavelength a path has one, and its colour.
+void disperse(TraceRecord trace, SceneRecord scene, inout Path path, inout Surface surface) {
+    const float abbe = MaterialRef(scene.materials).v[surface.material].interior.dispersion;
+    if (!surface.openPbr || surface.glass == 0.0 || surface.thinWalled || abbe == 0.0) return;
+    vec3 color;
+    const float u = sobol4(path.pixel, path.sampleIndex, RANDOM_WAVELENGTH, trace.seed).x;
+    const float wavelength = sampleWavelength(u, color);
+    const float index = usableIor(dispersedIndex(surface.inside ? 1.0 / surface.eta : surface.eta, abbe, wavelength));
+    surface.eta = surface.inside ? 1.0 / index : index;
+    if ((path.medium & MEDIUM_DISPERSED) == 0u) path.throughput *= color;
+    path.medium |= MEDIUM_DISPERSED;
+}
+
 // What a surface does with a path. False: the path ends here.
 bool scatter(TraceRecord trace, SceneRecord scene, inout Path path, inout Ray ray, Hit hit) {
-    const Surface surface = evaluateSurface(scene, hit, ray);
+    Surface surface = evaluateSurface(scene, hit, ray);
+    if (!surface.frontFacing && (path.medium & ~MEDIUM_DISPERSED) == (surface.material << MEDIUM_SHIFT | MEDIUM_SUBSURFACE))
+        setSubsurfaceExit(surface);
     const vec4 u = randomVector(trace, path, RANDOM_LIGHT);
     if (u.w >= surface.opacity) {
         if (path.event - path.depth >= PATH_PASS_LIMIT) return false;
@@ -140,6 +204,7 @@ bool scatter(TraceRecord trace, SceneRecord scene, inout Path path, inout Ray ra
     }
     addRadiance(trace, path.slot, path.throughput * surface.emission, path.depth > 1u);
     if (path.depth >= trace.maxDepth) return false;
+    disperse(trace, scene, path, surface);
     const vec3 wo = -ray.direction;
     sampleDirectLight(trace, scene, path, surface, wo, u);
     return bounce(trace, path, ray, surface, wo, u.w / surface.opacity); // uniform again
@@ -154,6 +219,15 @@ void collectLight(TraceRecord trace, SceneRecord scene, Path path, Ray ray, floa
     addRadiance(trace, path.slot, path.throughput * light, path.depth > 1u);
 }
 
+// Lets a scattering medium end the path's next flight. False: nothing is left of the path.
+bool extendFlight(TraceRecord trace, SceneRecord scene, Path path, inout Ray ray) {
+    const MediumRecord medium = mediumOf(scene, path);
+    if (medium.albedo == vec3(0.0)) return true;
+    const float u = sobol4(path.pixel, path.sampleIndex, RANDOM_FLIGHT + path.event, trace.seed).x;
+    ray.tMax = ray.tMin + sampleFlight(medium, path.throughput, u);
+    return any(greaterThan(path.throughput, vec3(0.0)));
+}
+
 void main() {
     const TraceRecord trace = TraceRecordRef(push.record).v;
     const uint i = gl_GlobalInvocationID.x;
@@ -163,11 +237,16 @@ void main() {
     Ray ray = RayRef(trace.rays[push.turn]).v[i];
     Path path = loadPath(trace, SlotRef(trace.raySlots[push.turn]).v[i]);
 
-    const bool miss = hit.instance == NO_INDEX;
-    collectLight(trace, scene, path, ray, miss ? ray.tMax : hit.t, miss);
+    const bool nothing = hit.instance == NO_INDEX, inMedium = nothing && ray.tMax < RAY_INFINITY, miss = nothing && !inMedium;
+    const float distance_ = nothing ? ray.tMax : hit.t;
+    collectLight(trace, scene, path, ray, distance_, miss);
+    const MediumRecord medium = mediumOf(scene, path);
+    if (medium.extinction != vec3(0.0))
+        path.throughput *= flightWeight(medium, path.throughput, distance_ - ray.tMin, inMedium);
     if (miss && keepsSeen(trace, path))
         PathSeenRef(trace.pathSeen).v[path.slot] = SeenPoint(rayThroughCentre(trace, path).direction, SEEN_SKY);
-    if (miss || !scatter(trace, scene, path, ray, hit)) return;
+    if (miss || !(inMedium ? scatterInMedium(trace, medium, path, ray) : scatter(trace, scene, path, ray, hit))) return;
+    if (!extendFlight(trace, scene, path, ray)) return;
     storePath(trace, path);
     const uint other = 1u - push.turn;
     const uint j = appendToQueue(trace, QUEUE_RAYS + other);

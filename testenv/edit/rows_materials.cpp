@@ -1,4 +1,7 @@
-// Materials: bindings, every input of UsdPreviewSurface, the network.
+// Materials: bindings, every input of UsdPreviewSurface and OpenPBR Surface, the network.
+#include <cctype>
+
+#include "renderer/api/openpbr.h"
 #include "testenv/edit/edits.h"
 
 PXR_NAMESPACE_USING_DIRECTIVE
@@ -108,6 +111,45 @@ Rows inputs() {
     };
 }
 
+/// The value that an edit gives an input of OpenPBR: of its type, in its range, and not that of looks.usda.
+std::string editedValue(const OpenPbrInputInfo& info) {
+    const std::string name = std::string("inputs:") + info.name;
+    if (name == "inputs:geometry_thin_walled") return "bool " + name + " = 1";
+    if (info.components == 3) return "color3f " + name + " = (0.2, 0.7, 0.4)";
+    return "float " + name + (info.most > 10.f ? " = 3" : info.most > 1.f ? " = 2.2" : " = 0.75");
+}
+
+/// "OpenPbr" and the input's name without underscores, each word with a capital.
+std::string rowName(const OpenPbrInputInfo& info) {
+    std::string name = "OpenPbr";
+    bool capital = true;
+    for (const char* c = info.name; *c; ++c) {
+        if (*c != '_') name += char(capital ? std::toupper(*c) : *c);
+        capital = *c == '_';
+    }
+    return name;
+}
+
+/// Every input of the table, on a material in which all parts of the model take part.
+Rows openPbrRows() {
+    const std::string surface = looks + "Layered/Surface";
+    const Edit bind = in(geo + "Smooth", "rel material:binding = </World/Looks/Layered>");
+    Rows rows;
+    for (const OpenPbrInputInfo& info : openPbrInputs()) {
+        const bool shows = info.use == InputUse::Full || info.use == InputUse::Constant;
+        const bool sheet = &info == &openPbrInputs()[size_t(OpenPbrInput::SubsurfaceScatterAnisotropy)];
+        const Edit before = sheet ? all({bind, in(surface, "bool inputs:geometry_thin_walled = 1")}) : bind;
+        rows.push_back({rowName(info), in(surface, editedValue(info)), before, shows});
+    }
+    rows.push_back({"OpenPbrModel", in(looks + "Red/Surface",
+                                       R"(uniform token info:id = "ND_open_pbr_surface_surfaceshader")")});
+    rows.push_back({"OpenPbrModelBack", in(surface, R"(uniform token info:id = "UsdPreviewSurface")"), bind});
+    rows.push_back(
+        {"OpenPbrTextured",
+         in(surface, "color3f inputs:base_color.connect = </World/Looks/Textured/Color.outputs:rgb>"), bind});
+    return rows;
+}
+
 Rows networks() {
     const std::string reader = looks + "Reader", textured = looks + "Textured";
     return {
@@ -173,7 +215,7 @@ token outputs:surface
 
 Rows materialRows() {
     Rows rows = bindings();
-    for (const Rows& more : {inputs(), networks()})
+    for (const Rows& more : {inputs(), openPbrRows(), networks()})
         rows.insert(rows.end(), more.begin(), more.end());
     return rows;
 }

@@ -136,6 +136,32 @@ TEST(MaterialNetwork, unknownNodesKeepTheInputsOwnValue) {
     EXPECT_EQ(desc->diffuseColor.constant.x, 0.5f);
 }
 
+TEST(MaterialNetwork, openPbrInputsOfEveryKind) {
+    Network n;
+    auto& texture = n.add("texture", "UsdUVTexture").parameters;
+    texture[TfToken("file")] = VtValue(SdfAssetPath("x.png", "/x.png"));
+    n.add("reader", "UsdPrimvarReader_float").parameters[TfToken("varname")] = token("wear");
+    auto& p = n.add("surface", "ND_open_pbr_surface_surfaceshader").parameters;
+    p[TfToken("coat_weight")] = VtValue(0.5f);
+    p[TfToken("geometry_thin_walled")] = VtValue(true);
+    p[TfToken("unknown_input")] = VtValue(1.f);
+    n.connect("texture", "rgb", "surface", "base_color");
+    n.connect("texture", "g", "surface", "specular_roughness");
+    n.connect("reader", "result", "surface", "base_metalness");
+    const auto desc = n.desc();
+    ASSERT_TRUE(desc);
+    EXPECT_EQ(desc->model, hipr::MaterialModel::OpenPbr);
+    EXPECT_EQ(desc->openPbr.size(), 5u);
+    using In = hipr::OpenPbrInput;
+    EXPECT_EQ(openPbrInput(*desc, In::CoatWeight).constant.x, 0.5f);
+    EXPECT_EQ(openPbrInput(*desc, In::GeometryThinWalled).constant.x, 1.f);
+    EXPECT_EQ(openPbrInput(*desc, In::BaseColor).texture.path, "/x.png");
+    EXPECT_EQ(openPbrInput(*desc, In::BaseColor).channel, hipr::Channel::Rgb);
+    EXPECT_EQ(openPbrInput(*desc, In::SpecularRoughness).channel, hipr::Channel::G);
+    EXPECT_EQ(openPbrInput(*desc, In::BaseMetalness).primvar, "wear");
+    EXPECT_EQ(openPbrInput(*desc, In::CoatIor).constant.x, 1.6f); // the specification's default
+}
+
 TEST(MaterialNetwork, unknownSurfacesGiveNothing) {
     Network n;
     n.add("surface", "SomeSurface");

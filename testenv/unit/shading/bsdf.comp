@@ -6,13 +6,9 @@
 layout(local_size_x = 64) in;
 
 struct SurfaceParameters {
-    vec3 diffuseColor;
-    vec3 specularColor;
-    float metallic, roughness, clearcoat, clearcoatRoughness, opacity, ior;
-    uint flags;
+    uint64_t constants, albedoTable, openPbrTable;
     vec3 ng, ns;
-    uint frontFacing;
-    uint64_t albedoTable;
+    uint flags, frontFacing;
 };
 
 struct Outcome {
@@ -35,21 +31,13 @@ layout(push_constant, scalar) uniform Push {
 
 Surface makeSurface(SurfaceParameters p, vec3 wo) {
     Surface s;
-    MaterialInputs inputs;
-    inputs.diffuseColor = p.diffuseColor;
-    inputs.specularColor = p.specularColor;
-    inputs.metallic = p.metallic;
-    inputs.roughness = p.roughness;
-    inputs.clearcoat = p.clearcoat;
-    inputs.clearcoatRoughness = p.clearcoatRoughness;
-    inputs.opacity = p.opacity;
-    inputs.ior = p.ior;
     s.frontFacing = p.frontFacing != 0u;
     s.ng = p.ng;
     s.ns = bendNormal(p.ns, p.ng, wo);
+    s.tangent = frameAround(s.ns)[0];
     s.albedoTable = p.albedoTable;
-    setLobes(s, inputs, p.flags);
-    setViewer(s, dot(s.ns, wo));
+    s.openPbrTable = p.openPbrTable;
+    setLobes(s, constantInputs(p.constants, (p.flags & MATERIAL_OPENPBR) != 0u), p.flags, dot(s.ns, wo));
     return s;
 }
 

@@ -5,7 +5,10 @@
 
 #include "hipr_shading_test_kernels.h"
 #include "renderer/shading/albedo.h"
+#include "renderer/shading/material_inputs.h"
+#include "renderer/shading/openpbr_albedo.h"
 #include "testenv/unit/sampling/gpu.h"
+#include "testenv/unit/shading/picture.h"
 
 namespace hipr::test {
 
@@ -21,17 +24,47 @@ const Kernel& kernel() {
     return made;
 }
 
-VkDeviceAddress albedoTable() {
-    static const Buffer table = toDevice(specularAlbedoTable());
-    return table.address();
+/// SurfaceParameters as bsdf.comp has them.
+struct KernelParameters {
+    VkDeviceAddress constants, albedoTable, openPbrTable;
+    glm::vec3 ng, ns;
+    uint32_t flags, frontFacing;
+};
+
+std::vector<glm::vec4> previewRow(const SurfaceParameters& p) {
+    std::vector<glm::vec4> row(gpu::PREVIEW_INPUT_COUNT, glm::vec4(0.f));
+    row[gpu::INPUT_BASE_COLOR] = glm::vec4(p.diffuseColor, 1.f);
+    row[gpu::INPUT_SPECULAR_COLOR] = glm::vec4(p.specularColor, 1.f);
+    row[gpu::INPUT_BASE_METALNESS] = glm::vec4(p.metallic);
+    row[gpu::INPUT_SPECULAR_ROUGHNESS] = glm::vec4(p.roughness);
+    row[gpu::INPUT_COAT_WEIGHT] = glm::vec4(p.clearcoat);
+    row[gpu::INPUT_COAT_ROUGHNESS] = glm::vec4(p.clearcoatRoughness);
+    row[gpu::INPUT_OPACITY] = glm::vec4(p.opacity);
+    row[gpu::INPUT_SPECULAR_IOR] = glm::vec4(p.ior);
+    return row;
+}
+
+/// What the renderer makes of a material with constants alone.
+MaterialRow openPbrRow(const MaterialDesc& desc) {
+    NameTable names;
+    TextureStore textures(testDevice(), serve({}), ColorManager::create({}));
+    return describeMaterial(resolveMaterial(desc, names, textures, {}), textures);
 }
 
 } // namespace
 
 std::vector<Outcome> runBsdf(const SurfaceParameters& parameters, const std::vector<glm::vec3>& wo,
                              const std::vector<glm::vec3>& wi, const std::vector<glm::vec4>& u) {
-    SurfaceParameters p = parameters;
-    p.albedoTable = albedoTable();
+    static const Buffer albedo = toDevice(specularAlbedoTable()),
+                        openPbrAlbedo = toDevice(openPbrAlbedoTable());
+    MaterialRow row;
+    if (parameters.openPbr)
+        row = openPbrRow(*parameters.openPbr);
+    else
+        row.constants = previewRow(parameters), row.flags = parameters.flags;
+    const Buffer constants = toDevice(row.constants);
+    const KernelParameters p{constants.address(), albedo.address(), openPbrAlbedo.address(), parameters.ng,
+                             parameters.ns,       row.flags,        parameters.frontFacing};
     const Buffer parameterBuffer = testDevice().createFrom(&p, 1, "test");
     const Buffer woBuffer = toDevice(wo), wiBuffer = toDevice(wi), uBuffer = toDevice(u);
     const Buffer outcomes = emptyBuffer<Outcome>(wi.size());
@@ -49,6 +82,23 @@ std::vector<Outcome> runBsdf(const SurfaceParameters& parameters, const glm::vec
         for (int c = 0; c < 4; ++c)
             v[c] = float(random() >> 8) / 16777216.f;
     return runBsdf(parameters, std::vector<glm::vec3>(wi.size(), wo), wi, u);
+}
+
+SurfaceParameters openPbr(OpenPbrValues values) {
+    SurfaceParameters p;
+    p.openPbr.emplace();
+    p.openPbr->name = "/openpbr";
+    p.openPbr->model = MaterialModel::OpenPbr;
+    return with(p, values);
+}
+
+SurfaceParameters with(SurfaceParameters parameters, OpenPbrValues values) {
+    for (const auto& [input, value] : values) {
+        MaterialInput set = openPbrDefault(input);
+        set.constant = glm::vec4(value, 1.f);
+        parameters.openPbr->openPbr[input] = set;
+    }
+    return parameters;
 }
 
 std::vector<NamedSurface> opaqueSurfaces() {

@@ -2,24 +2,35 @@
 /// The host's side of bsdf.comp.
 #pragma once
 
+#include <initializer_list>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <glm/glm.hpp>
 
+#include "renderer/api/material.h"
 #include "shaders/shared/material.h"
 
 namespace hipr::test {
 
+/// A UsdPreviewSurface, or the constants of an OpenPBR Surface.
 struct SurfaceParameters {
     glm::vec3 diffuseColor{0.f};
     glm::vec3 specularColor{0.f};
     float metallic = 0.f, roughness = 0.5f, clearcoat = 0.f, clearcoatRoughness = 0.01f, opacity = 1.f,
           ior = 1.5f;
-    uint32_t flags = 0;
+    uint32_t flags = 0;                  ///< of a UsdPreviewSurface
+    std::optional<MaterialDesc> openPbr; ///< instead of all above
     glm::vec3 ng{0.f, 0.f, 1.f}, ns{0.f, 0.f, 1.f};
     uint32_t frontFacing = 1;
-    uint64_t albedoTable = 0; ///< filled by runBsdf
 };
+
+/// An OpenPBR Surface with some inputs set; colours of one number are grey.
+using OpenPbrValues = std::initializer_list<std::pair<OpenPbrInput, glm::vec3>>;
+SurfaceParameters openPbr(OpenPbrValues values);
+/// The same with further inputs set.
+SurfaceParameters with(SurfaceParameters parameters, OpenPbrValues values);
 
 struct Outcome {
     glm::vec3 f;

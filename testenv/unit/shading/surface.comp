@@ -7,7 +7,7 @@
 layout(local_size_x = 64) in;
 
 struct SurfaceOutcome {
-    vec3 position, ng, ns, emission, albedo, diffuse, f0;
+    vec3 position, ng, ns, tangent, emission, albedo, diffuse, f0;
     float opacity, presence, alpha, coat, coatAlpha, glass, eta;
     uint frontFacing;
 };
@@ -24,6 +24,7 @@ void main() {
     const Hit hit = HitRef(push.hits).v[i];
     const Surface s = evaluateSurface(scene, hit, RayRef(push.rays).v[i]);
     OutcomeRef(push.outcomes).v[i] =
-        SurfaceOutcome(s.position, s.ng, s.ns, s.emission, s.albedo, s.diffuse, s.f0, s.opacity,
-                       evaluatePresence(scene, hit), s.alpha, s.coat, s.coatAlpha, s.glass, s.eta, s.frontFacing ? 1u : 0u);
+        SurfaceOutcome(s.position, s.ng, s.ns, s.tangent, s.emission, s.albedo, s.diffuse, s.f0, s.opacity,
+                       evaluatePresence(scene, hit), s.alpha.x, s.coat, s.coatAlpha.x, s.glass, s.eta,
+                       s.frontFacing ? 1u : 0u);
 }

@@ -103,6 +103,26 @@ bool SurfaceScene::nonOpaque(size_t i) const {
     return tables.materials.nonOpaque(MaterialId(i + 1));
 }
 
+SurfaceScene sceneWith(const MaterialDesc& material, Files files) {
+    SurfaceScene scene;
+    scene.materials = {material};
+    scene.files = std::move(files);
+    return scene;
+}
+
+MaterialDesc matte(const MaterialInput& color) {
+    MaterialDesc desc;
+    desc.name = "/matte";
+    desc.diffuseColor = color;
+    desc.useSpecularWorkflow = true;
+    return desc;
+}
+
+void expectNear(const glm::vec3& a, const glm::vec3& b, float tolerance, const ::testing::Message& where) {
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(a[c], b[c], tolerance) << where << " component " << c;
+}
+
 MaterialInput textureInput(const std::string& path, Channel channel, const std::string& space) {
     MaterialInput input;
     input.source = MaterialInput::Source::Texture;

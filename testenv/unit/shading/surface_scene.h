@@ -5,13 +5,15 @@
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "renderer/shading/materials.h"
 #include "testenv/unit/shading/picture.h"
 
 namespace hipr::test {
 
 struct SurfaceOutcome {
-    glm::vec3 position, ng, ns, emission, albedo, diffuse, f0;
+    glm::vec3 position, ng, ns, tangent, emission, albedo, diffuse, f0;
     float opacity, presence, alpha, coat, coatAlpha, glass, eta;
     uint32_t frontFacing;
 };
@@ -42,6 +44,14 @@ public:
     /// Whether material `i` lets rays through.
     bool nonOpaque(size_t i) const;
 };
+
+/// A scene of one material.
+SurfaceScene sceneWith(const MaterialDesc& material, Files files = {});
+/// A diffuse material (specular workflow, no specular): Surface::diffuse is the colour read.
+MaterialDesc matte(const MaterialInput& color);
+
+void expectNear(const glm::vec3& a, const glm::vec3& b, float tolerance,
+                const ::testing::Message& where = {});
 
 /// A texture input.
 MaterialInput textureInput(const std::string& path, Channel channel = Channel::Rgb,

@@ -1,0 +1,99 @@
+// Light inside objects: OpenPBR materials whose pictures are known.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "testenv/render/scene_kit.h"
+
+using namespace hipr;
+using namespace hipr::test;
+
+namespace {
+
+using In = OpenPbrInput;
+
+MaterialDesc openPbr(const std::vector<std::pair<In, glm::vec3>>& values) {
+    MaterialDesc desc;
+    desc.name = "/openpbr";
+    desc.model = MaterialModel::OpenPbr;
+    for (const auto& [input, value] : values) {
+        desc.openPbr[input] = openPbrDefault(input);
+        desc.openPbr[input].constant = glm::vec4(value, 1.f);
+    }
+    return desc;
+}
+
+glm::vec3 grey(float value) {
+    return glm::vec3(value);
+}
+
+/// A ball of radius 1 in a white sky, seen so close that it fills most of the picture.
+ColorPicture ball(const MaterialDesc& material, uint32_t samples, double degrees = 30) {
+    Settings settings;
+    settings.samples = samples;
+    settings.maxDepth = 256;
+    settings.rouletteDepth = 64;
+    Stage stage(settings);
+    stage.add(sphereMesh(64), material);
+    LightDesc sky;
+    sky.kind = LightKind::Dome;
+    stage.add(sky);
+    stage.edit.setCamera(lookAt({0, 0, 4.2}, {0, 0, 0}, degrees));
+    stage.film(24, 24);
+    stage.render();
+    return stage.color();
+}
+
+} // namespace
+
+/// White balls vanish before a white sky, whatever light does inside them.
+TEST(OpenPbrPicture, WhiteFurnace) {
+    const std::pair<const char*, MaterialDesc> materials[] = {
+        {"standard", openPbr({{In::BaseColor, grey(1)}})},
+        {"rough glass", openPbr({{In::TransmissionWeight, grey(1)}, {In::SpecularRoughness, grey(0.7f)}})},
+        {"milky glass", openPbr({{In::TransmissionWeight, grey(1)},
+                                 {In::TransmissionDepth, grey(1)},
+                                 {In::TransmissionScatter, grey(1)},
+                                 {In::TransmissionScatterAnisotropy, grey(0.5f)}})},
+        {"dispersing glass",
+         openPbr({{In::TransmissionWeight, grey(1)}, {In::TransmissionDispersionScale, grey(1)}})},
+        {"subsurface", openPbr({{In::SubsurfaceWeight, grey(1)},
+                                {In::SubsurfaceColor, grey(1)},
+                                {In::SubsurfaceRadius, grey(0.2f)}})},
+        {"sheet", openPbr({{In::GeometryThinWalled, grey(1)},
+                           {In::TransmissionWeight, grey(0.5f)},
+                           {In::SubsurfaceWeight, grey(1)},
+                           {In::SubsurfaceColor, grey(1)}})},
+    };
+    for (const auto& [name, material] : materials) {
+        const glm::vec4 seen = mean(ball(material, 128));
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(seen[c], 1.f, 0.012f) << name << " channel " << c;
+    }
+}
+
+/// Through the middle of a ball that hardly refracts: Beer's law over its diameter.
+TEST(OpenPbrPicture, GlassAbsorbsAlongTheWay) {
+    const glm::vec3 color(0.8f, 0.5f, 0.2f);
+    const ColorPicture picture = ball(openPbr({{In::TransmissionWeight, grey(1)},
+                                               {In::SpecularWeight, grey(0)},
+                                               {In::SpecularRoughness, grey(0)},
+                                               {In::TransmissionDepth, grey(1.6f)},
+                                               {In::TransmissionColor, color}}),
+                                      16, 2);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(mean(picture)[c], std::pow(color[c], 2.f / 1.6f), 0.01f) << "channel " << c;
+}
+
+/// A dense ball reflects the colour asked for; its interface is made to vanish.
+TEST(OpenPbrPicture, SubsurfaceHasTheColourAskedFor) {
+    const glm::vec3 color(0.8f, 0.5f, 0.2f);
+    const glm::vec4 seen = mean(ball(openPbr({{In::SubsurfaceWeight, grey(1)},
+                                              {In::SpecularWeight, grey(0)},
+                                              {In::SubsurfaceColor, color},
+                                              {In::SubsurfaceRadius, grey(0.02f)},
+                                              {In::SubsurfaceRadiusScale, grey(1)}}),
+                                     64, 5));
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(seen[c], color[c], 0.03f) << "channel " << c;
+}

@@ -1,0 +1,264 @@
+// OpenPBR Surface: what its lobes keep, and how they are sampled.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "renderer/shading/openpbr_albedo.h"
+#include "testenv/unit/shading/bsdf_survey.h"
+
+namespace hipr::test {
+namespace {
+
+using In = OpenPbrInput;
+
+glm::vec3 grey(double value) {
+    return glm::vec3(float(value));
+}
+
+/// White all over, so that nothing is absorbed.
+SurfaceParameters white(OpenPbrValues values) {
+    return with(openPbr({{In::BaseColor, grey(1)}, {In::SubsurfaceColor, grey(1)}}), values);
+}
+
+void expectWhite(const SurfaceParameters& parameters, const ::testing::Message& what,
+                 double tolerance = 0.01) {
+    for (const double cosine : {0.98, 0.6, 0.3, 0.1}) {
+        const glm::dvec3 albedo = sampledAlbedo(parameters, direction(cosine, 0.7), 1 << 14);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(albedo[c], 1.0, tolerance) << what << ", cosine " << cosine << ", channel " << c;
+    }
+}
+
+std::vector<NamedSurface> surfaces() {
+    const auto orange = glm::vec3(0.8f, 0.5f, 0.2f);
+    return {
+        {"default", openPbr({})},
+        {"rough diffuse", openPbr({{In::BaseDiffuseRoughness, grey(1)}, {In::BaseColor, orange}})},
+        {"metal 0.3", openPbr({{In::BaseMetalness, grey(1)}, {In::BaseColor, orange}})},
+        {"metal 0.9 with an edge", openPbr({{In::BaseMetalness, grey(1)},
+                                            {In::BaseColor, orange},
+                                            {In::SpecularColor, glm::vec3(0.2f, 0.9f, 1.f)},
+                                            {In::SpecularRoughness, grey(0.9)}})},
+        {"brushed metal", openPbr({{In::BaseMetalness, grey(1)},
+                                   {In::SpecularRoughness, grey(0.5)},
+                                   {In::SpecularRoughnessAnisotropy, grey(0.7)}})},
+        {"half metal", openPbr({{In::BaseMetalness, grey(0.5)}, {In::SpecularRoughness, grey(0.6)}})},
+        {"dense", openPbr({{In::SpecularIor, grey(2.4)}, {In::SpecularWeight, grey(0.7)}})},
+        {"coat", openPbr({{In::CoatWeight, grey(1)},
+                          {In::CoatColor, orange},
+                          {In::CoatRoughness, grey(0.3)},
+                          {In::SpecularRoughness, grey(0.6)}})},
+        {"stretched coat on metal", openPbr({{In::CoatWeight, grey(0.7)},
+                                             {In::CoatRoughness, grey(0.4)},
+                                             {In::CoatRoughnessAnisotropy, grey(0.8)},
+                                             {In::BaseMetalness, grey(1)}})},
+        {"fuzz 0.5", openPbr({{In::FuzzWeight, grey(1)}, {In::FuzzColor, orange}})},
+        {"fuzz 0 on a coat", openPbr({{In::FuzzWeight, grey(0.8)},
+                                      {In::FuzzRoughness, grey(0)},
+                                      {In::CoatWeight, grey(0.5)},
+                                      {In::CoatRoughness, grey(0.5)}})},
+        {"thin paper", openPbr({{In::GeometryThinWalled, grey(1)},
+                                {In::SubsurfaceWeight, grey(1)},
+                                {In::SubsurfaceScatterAnisotropy, grey(0.4)}})},
+        {"thin paper without an interface", openPbr({{In::GeometryThinWalled, grey(1)},
+                                                     {In::SpecularWeight, grey(0)},
+                                                     {In::SubsurfaceWeight, grey(1)}})},
+        {"film on metal", openPbr({{In::ThinFilmWeight, grey(1)}, {In::BaseMetalness, grey(1)}})},
+        {"thin glass", openPbr({{In::GeometryThinWalled, grey(1)},
+                                {In::TransmissionWeight, grey(1)},
+                                {In::TransmissionColor, orange},
+                                {In::SpecularRoughness, grey(0.4)}})},
+    };
+}
+
+std::vector<NamedSurface> glasses() {
+    std::vector<NamedSurface> all = {
+        {"glass 0.3", openPbr({{In::TransmissionWeight, grey(1)}})},
+        {"bubble", openPbr({{In::TransmissionWeight, grey(1)},
+                            {In::ThinFilmWeight, grey(0.8)},
+                            {In::ThinFilmThickness, grey(0.3)}})},
+        {"glass 0.9", openPbr({{In::TransmissionWeight, grey(1)}, {In::SpecularRoughness, grey(0.9)}})},
+        {"half glass under a coat", openPbr({{In::TransmissionWeight, grey(0.5)},
+                                             {In::SpecularRoughness, grey(0.6)},
+                                             {In::CoatWeight, grey(1)},
+                                             {In::CoatRoughness, grey(0.3)}})},
+    };
+    for (size_t i = 0, n = all.size(); i < n; ++i) {
+        all.push_back(all[i]);
+        all.back().parameters.frontFacing = 0;
+    }
+    return all;
+}
+
+TEST(OpenPbr, SamplesFollowThePdf) {
+    for (const auto& list : {surfaces(), glasses()})
+        for (const NamedSurface& surface : list)
+            for (const double cosine : {0.95, 0.35})
+                expectSamplesFollowThePdf(surface, cosine);
+}
+
+/// Base, metal and fuzz; layers below a coat or fuzz are scaled as the specification suggests, which is not
+/// reciprocal.
+TEST(OpenPbr, LobesAreReciprocal) {
+    for (const NamedSurface& surface : surfaces()) {
+        const auto& inputs = surface.parameters.openPbr->openPbr;
+        if (inputs.count(In::CoatWeight) || inputs.count(In::FuzzWeight)) continue;
+        expectReciprocalReflection(surface);
+    }
+    expectReciprocalReflection(
+        {"fuzz alone",
+         openPbr({{In::FuzzWeight, grey(1)}, {In::BaseWeight, grey(0)}, {In::SpecularWeight, grey(0)}})});
+}
+
+TEST(OpenPbr, RefractionIsReciprocal) {
+    for (const double roughness : {0.4, 1.0})
+        expectReciprocalRefraction(
+            openPbr({{In::TransmissionWeight, grey(1)}, {In::SpecularRoughness, grey(roughness)}}), 1.5);
+}
+
+TEST(OpenPbr, WhiteDiffuseKeepsAllLight) {
+    for (const double roughness : {0.05, 0.3, 0.6, 1.0})
+        for (const double ior : {1.1, 1.5, 2.5})
+            for (const double rough : {0.0, 1.0})
+                expectWhite(white({{In::SpecularRoughness, grey(roughness)},
+                                   {In::SpecularIor, grey(ior)},
+                                   {In::BaseDiffuseRoughness, grey(rough)}}),
+                            ::testing::Message() << "roughness " << roughness << ", ior " << ior
+                                                 << ", diffuse roughness " << rough,
+                            rough > 0.0 ? 0.02 : 0.01); // coupled as if it were Lambert's
+}
+
+TEST(OpenPbr, WhiteMetalKeepsAllLight) {
+    for (const double roughness : {0.05, 0.3, 0.6, 1.0})
+        for (const double metalness : {0.5, 1.0})
+            expectWhite(
+                white({{In::SpecularRoughness, grey(roughness)}, {In::BaseMetalness, grey(metalness)}}),
+                ::testing::Message() << "roughness " << roughness << ", metalness " << metalness);
+}
+
+TEST(OpenPbr, StretchedHighlightsKeepAllLight) {
+    for (const double roughness : {0.3, 0.6, 1.0})
+        for (const double anisotropy : {0.5, 0.9})
+            for (const double metalness : {0.0, 1.0})
+                expectWhite(white({{In::SpecularRoughness, grey(roughness)},
+                                   {In::SpecularRoughnessAnisotropy, grey(anisotropy)},
+                                   {In::BaseMetalness, grey(metalness)}}),
+                            ::testing::Message() << "roughness " << roughness << ", anisotropy " << anisotropy
+                                                 << ", metalness " << metalness,
+                            0.025); // the tables are of even lobes
+}
+
+TEST(OpenPbr, GlassKeepsAllLight) {
+    for (const double roughness : {0.05, 0.3, 0.6, 1.0})
+        for (const double ior : {1.1, 1.5, 2.5})
+            for (const uint32_t front : {1u, 0u}) {
+                SurfaceParameters p = white({{In::TransmissionWeight, grey(1)},
+                                             {In::SpecularRoughness, grey(roughness)},
+                                             {In::SpecularIor, grey(ior)}});
+                p.frontFacing = front;
+                expectWhite(p, ::testing::Message()
+                                   << "roughness " << roughness << ", ior " << ior << ", front " << front);
+            }
+}
+
+TEST(OpenPbr, SheetsKeepAllLight) {
+    for (const double roughness : {0.05, 0.5, 1.0})
+        for (const double transmission : {0.0, 1.0})
+            for (const double subsurface : {0.0, 1.0})
+                expectWhite(white({{In::GeometryThinWalled, grey(1)},
+                                   {In::TransmissionWeight, grey(transmission)},
+                                   {In::SubsurfaceWeight, grey(subsurface)},
+                                   {In::SubsurfaceScatterAnisotropy, grey(0.5)},
+                                   {In::SpecularRoughness, grey(roughness)}}),
+                            ::testing::Message() << "roughness " << roughness << ", transmission "
+                                                 << transmission << ", subsurface " << subsurface);
+}
+
+TEST(OpenPbr, CoatAndFuzzKeepAllLight) {
+    for (const double metalness : {0.0, 1.0})
+        for (const double transmission : {0.0, 1.0})
+            for (const double coat : {0.0, 1.0})
+                for (const double fuzz : {0.0, 1.0})
+                    for (const double roughness : {0.1, 0.8})
+                        expectWhite(white({{In::BaseMetalness, grey(metalness)},
+                                           {In::TransmissionWeight, grey(transmission)},
+                                           {In::CoatWeight, grey(coat)},
+                                           {In::CoatRoughness, grey(roughness)},
+                                           {In::FuzzWeight, grey(fuzz)},
+                                           {In::FuzzRoughness, grey(roughness)}}),
+                                    ::testing::Message() << "metalness " << metalness << ", transmission "
+                                                         << transmission << ", coat " << coat << ", fuzz "
+                                                         << fuzz << ", roughness " << roughness);
+}
+
+/// Smooth, so that the film's albedo is its reflectance.
+TEST(OpenPbr, FilmsKeepAllLight) {
+    for (const double thickness : {0.1, 0.4, 1.0})
+        for (const double ior : {1.3, 2.0})
+            for (const double metalness : {0.0, 1.0})
+                for (const double transmission : {0.0, 1.0})
+                    for (const uint32_t front : {1u, 0u}) {
+                        SurfaceParameters p = white({{In::ThinFilmWeight, grey(1)},
+                                                     {In::ThinFilmThickness, grey(thickness)},
+                                                     {In::ThinFilmIor, grey(ior)},
+                                                     {In::BaseMetalness, grey(metalness)},
+                                                     {In::TransmissionWeight, grey(transmission)},
+                                                     {In::SpecularRoughness, grey(0.05)}});
+                        p.frontFacing = front;
+                        expectWhite(p, ::testing::Message()
+                                           << "thickness " << thickness << ", ior " << ior << ", metalness "
+                                           << metalness << ", transmission " << transmission << ", front "
+                                           << front);
+                    }
+}
+
+/// A quarter of a wave of a film whose index is the root of the glass's quenches the reflection; half a wave
+/// does nothing.
+TEST(OpenPbr, FilmsQuenchReflections) {
+    const auto reflected = [](double thickness) {
+        const double ior = std::sqrt(1.5);
+        return sampledAlbedo(openPbr({{In::BaseWeight, grey(0)},
+                                      {In::SpecularRoughness, grey(0.01)},
+                                      {In::ThinFilmWeight, grey(1)},
+                                      {In::ThinFilmIor, grey(ior)},
+                                      {In::ThinFilmThickness, grey(thickness / ior)}}),
+                             direction(1.0, 0.0), 1 << 10);
+    };
+    EXPECT_NEAR(reflected(0.0).y, 0.04, 1e-3);
+    EXPECT_LT(reflected(0.550 / 4).y, 0.001);
+    EXPECT_GT(reflected(0.550 / 4).z, 0.001); // green light only
+    EXPECT_NEAR(reflected(0.550 / 2).y, 0.04, 0.003);
+    EXPECT_NEAR(reflected(20.0).y, 0.02, 1e-3); // too thick to interfere: both sides reflect on their own
+}
+
+/// The metal's reflectance at normal incidence is base_color, and the tint is exact at 82 degrees.
+TEST(OpenPbr, MetalHasTheColoursAskedFor) {
+    const glm::vec3 color(0.9f, 0.6f, 0.3f), tint(0.5f, 0.8f, 1.f);
+    const SurfaceParameters p = openPbr({{In::BaseMetalness, grey(1)},
+                                         {In::BaseColor, color},
+                                         {In::SpecularColor, tint},
+                                         {In::SpecularRoughness, grey(0.01)}});
+    const glm::dvec3 facing = sampledAlbedo(p, direction(1.0, 0.0), 1 << 12);
+    const glm::dvec3 edge = sampledAlbedo(p, direction(1.0 / 7.0, 0.0), 1 << 12);
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(facing[c], color[c], 2e-3);
+        const double schlick = color[c] + (1.0 - color[c]) * std::pow(6.0 / 7.0, 5.0);
+        EXPECT_NEAR(edge[c], tint[c] * schlick, 2e-3);
+    }
+}
+
+/// The table against quadrature of four times the points.
+TEST(OpenPbr, TableIsConverged) {
+    for (const double eta : {1.5, 1.0 / 1.5})
+        for (const double roughness : {0.0, 0.3, 1.0})
+            for (const double cosine : {0.05, 0.4, 0.9}) {
+                const double alpha = std::max(roughness * roughness, 2e-4);
+                const glm::vec2 coarse = interfaceAlbedo(cosine, alpha, eta, 36),
+                                fine = interfaceAlbedo(cosine, alpha, eta, 112);
+                EXPECT_NEAR(coarse.x, fine.x, 8e-3) << eta << " " << roughness << " " << cosine;
+                EXPECT_NEAR(coarse.y, fine.y, 8e-3) << eta << " " << roughness << " " << cosine;
+            }
+}
+
+} // namespace
+} // namespace hipr::test
