@@ -1,5 +1,7 @@
 #include "plugin/hdHipr/basisCurves.h"
 
+#include <algorithm>
+
 #include "plugin/hdHipr/messages.h"
 #include "pxr/base/tf/stringUtils.h"
 #include "renderer/api/curves.h"
@@ -10,7 +12,7 @@ using namespace hdhipr;
 
 namespace {
 
-/// Lines without a width of their own (bounds and axes that stand for models) are this much of their extent.
+/// Lines that stand for models (bounds, axes) are this much of their extent.
 constexpr float lineWidth = 1.f / 400;
 
 hipr::CurveBasis basisOf(HdBasisCurvesTopology const& topology) {
@@ -48,6 +50,14 @@ float extentOf(std::vector<glm::vec3> const& points) {
     return glm::length(high - low);
 }
 
+/// UsdImaging gives lines that stand for models the width 1, whatever their size.
+void setLineWidth(hipr::CurvesDesc& desc) {
+    const auto isWidths = [](hipr::Primvar const& primvar) { return HdTokens->widths == primvar.name; };
+    desc.primvars.erase(std::remove_if(desc.primvars.begin(), desc.primvars.end(), isWidths),
+                        desc.primvars.end());
+    desc.width = lineWidth * extentOf(desc.points);
+}
+
 } // namespace
 
 std::shared_ptr<const hipr::TriangleMesh> HdHiprBasisCurves::readShape(HdSceneDelegate& delegate) {
@@ -61,9 +71,6 @@ std::shared_ptr<const hipr::TriangleMesh> HdHiprBasisCurves::readShape(HdSceneDe
     desc.hiddenCurves = ints(topology.GetInvisibleCurves());
     desc.refineLevel = GetDisplayStyle(&delegate).refineLevel;
     desc.points = toVec3s(delegate.Get(GetId(), HdTokens->points));
-    if (desc.wrap == hipr::CurveWrap::Segments) {
-        desc.width = lineWidth * extentOf(desc.points);
-    }
     desc.primvars = readPrimvars(delegate, [&](HdInterpolation interpolation) {
         switch (interpolation) {
         case HdInterpolationUniform:
@@ -76,6 +83,9 @@ std::shared_ptr<const hipr::TriangleMesh> HdHiprBasisCurves::readShape(HdSceneDe
             return hipr::varyingCount(desc);
         }
     });
+    if (desc.wrap == hipr::CurveWrap::Segments) {
+        setLineWidth(desc);
+    }
     return hipr::buildCurves(desc, report);
 }
 

@@ -49,10 +49,10 @@ TfTokenVector renderTags(const std::vector<std::string>& purposes) {
 /// How a camera is fitted to a picture of another aspect.
 CameraUtilConformWindowPolicy windowPolicy(const std::string& conformPolicy) {
     if (conformPolicy == "cropAperture") return CameraUtilCrop;
-    if (conformPolicy == "adjustApertureWidth") return CameraUtilMatchVertically;
+    if (conformPolicy == "expandAperture") return CameraUtilFit;
     if (conformPolicy == "adjustApertureHeight") return CameraUtilMatchHorizontally;
     if (conformPolicy == "adjustPixelAspectRatio") return CameraUtilDontConform;
-    return CameraUtilFit;
+    return CameraUtilMatchVertically; // adjustApertureWidth, and what usdview does
 }
 
 bool contains(const std::vector<std::string>& list, const char* item) {

@@ -19,7 +19,7 @@ struct EngineOptions {
     int width = 0, height = 0;
     std::vector<std::string> aovs;     ///< Hydra AOV names; each must pass Engine::hasAov()
     std::vector<std::string> purposes; ///< "default", "render", "proxy", "guide"
-    std::string conformPolicy;         ///< UsdRender's aspectRatioConformPolicy; empty: expandAperture
+    std::string conformPolicy;         ///< UsdRender's aspectRatioConformPolicy; empty: adjustApertureWidth
     int refineLevel = 0;               ///< 0 is the control mesh; Hydra allows up to 8
 };
 

@@ -47,7 +47,7 @@ struct Options {
     std::string renderSettings; ///< RenderSettings prim; empty: the stage's own, where there are no outputs
     /// From render settings, never from the command line.
     std::vector<ProductFile> products;
-    std::string conformPolicy; ///< aspectRatioConformPolicy; empty: the default
+    std::string conformPolicy; ///< aspectRatioConformPolicy; empty: adjustApertureWidth
     std::vector<std::pair<std::string, std::string>> sceneSettings; ///< those that the renderer knows count
     bool aovsGiven = false, purposesGiven = false;                  ///< on the command line
 
