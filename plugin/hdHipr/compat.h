@@ -248,6 +248,14 @@ protected:
 #endif
 };
 
+/// A light that is linked to a collection was edited, which may have changed the collection. Before 24.08
+/// nobody tells the objects in it: they read their categories again.
+inline void collectionsChanged([[maybe_unused]] HdRenderIndex& index) {
+#if PXR_VERSION < 2408
+    index.GetChangeTracker().MarkAllRprimsDirty(HdChangeTracker::DirtyCategories);
+#endif
+}
+
 /// How the poles of a dome light's texture lie in its own space (DomeLight_1, from 23.11 on).
 inline GfMatrix4d domeOffset([[maybe_unused]] HdSceneDelegate* delegate, [[maybe_unused]] SdfPath const& id) {
 #if PXR_VERSION >= 2311

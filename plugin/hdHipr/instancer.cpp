@@ -122,6 +122,28 @@ std::vector<float> repeated(std::vector<float> const& values, uint32_t component
     return out;
 }
 
+bool anyLinked(std::vector<VtArray<TfToken>> const& categories) {
+    return std::any_of(categories.begin(), categories.end(),
+                       [](VtArray<TfToken> const& names) { return !names.empty(); });
+}
+
+/// Every outer instance's names with every inner one's; empty lists stand for no names.
+std::vector<std::vector<std::string>> combine(std::vector<std::vector<std::string>> const& outer,
+                                              size_t outerCount,
+                                              std::vector<std::vector<std::string>> const& inner,
+                                              size_t innerCount) {
+    std::vector<std::vector<std::string>> all;
+    for (size_t i = 0; i < outerCount && !(outer.empty() && inner.empty()); ++i) {
+        for (size_t j = 0; j < innerCount; ++j) {
+            all.push_back(outer.empty() ? std::vector<std::string>() : outer[i]);
+            if (!inner.empty()) {
+                all.back().insert(all.back().end(), inner[j].begin(), inner[j].end());
+            }
+        }
+    }
+    return all;
+}
+
 } // namespace
 
 bool HdHiprInstancer::placesInstances(TfToken const& primvar) {
@@ -198,11 +220,24 @@ std::vector<hipr::Primvar> HdHiprInstancer::localPrimvars(VtIntArray const& indi
     return result;
 }
 
+std::vector<std::vector<std::string>> HdHiprInstancer::localCategories(VtIntArray const& indices) const {
+    const std::vector<VtArray<TfToken>> all = GetDelegate()->GetInstanceCategories(GetId());
+    if (!anyLinked(all)) {
+        return {};
+    }
+    std::vector<std::vector<std::string>> picked;
+    for (size_t i = 0; i < indices.size(); ++i) {
+        const size_t index = size_t(indices.cdata()[i]);
+        picked.push_back(index < all.size() ? toNames(all[index]) : std::vector<std::string>());
+    }
+    return picked;
+}
+
 HdHiprInstancer::Instances HdHiprInstancer::instances(SdfPath const& prototypeId) {
     ensureSynced();
     const VtIntArray indices = GetDelegate()->GetInstanceIndices(GetId(), prototypeId);
     Instances local{localTransforms(indices, GetDelegate()->GetInstancerTransform(GetId())),
-                    localPrimvars(indices)};
+                    localPrimvars(indices), localCategories(indices)};
     if (GetParentId().IsEmpty()) {
         return local;
     }
@@ -221,6 +256,8 @@ HdHiprInstancer::Instances HdHiprInstancer::instances(SdfPath const& prototypeId
             all.transforms.push_back(transform * outerTransform);
         }
     }
+    all.categories =
+        combine(outer.categories, outer.transforms.size(), local.categories, local.transforms.size());
     for (hipr::Primvar& pv : local.primvars) {
         pv.values = repeated(pv.values, pv.components, outer.transforms.size(), false);
         all.primvars.push_back(std::move(pv));
@@ -237,6 +274,21 @@ HdHiprInstancer::Instances HdHiprInstancer::instances(SdfPath const& prototypeId
     return all;
 }
 
+std::vector<std::string> hdhipr::toNames(VtArray<TfToken> const& categories) {
+    std::vector<std::string> names;
+    for (size_t i = 0; i < categories.size(); ++i) {
+        names.push_back(categories.cdata()[i].GetString());
+    }
+    std::sort(names.begin(), names.end()); // UsdImaging's order depends on addresses
+    return names;
+}
+
+bool hdhipr::instancesLinked(HdSceneDelegate& delegate, SdfPath const& instancerId) {
+    HdInstancer* instancer = delegate.GetRenderIndex().GetInstancer(instancerId);
+    return instancer && (anyLinked(delegate.GetInstanceCategories(instancerId)) ||
+                         instancesLinked(delegate, instancer->GetParentId()));
+}
+
 hipr::InstancesDesc hdhipr::readInstances(HdSceneDelegate& delegate, SdfPath const& id,
                                           SdfPath const& instancerId) {
     const GfMatrix4d own = delegate.GetTransform(id);
@@ -250,6 +302,7 @@ hipr::InstancesDesc hdhipr::readInstances(HdSceneDelegate& delegate, SdfPath con
             desc.transforms.push_back(toGlmAffine(own * transform));
         }
         desc.primvars = std::move(instances.primvars);
+        desc.categories = std::move(instances.categories);
     } else {
         warnOnce(id.GetString(),
                  "its instancer <" + instancerId.GetString() + "> does not exist; it is not drawn");

@@ -19,6 +19,8 @@ public:
     struct Instances {
         std::vector<GfMatrix4d> transforms;  ///< prototype space to world, Gf convention
         std::vector<hipr::Primvar> primvars; ///< one value per instance; inner levels win over outer ones
+        /// What each instance may be linked by, of all levels; empty where no light is linked.
+        std::vector<std::vector<std::string>> categories;
     };
     Instances instances(SdfPath const& prototypeId);
 
@@ -32,11 +34,18 @@ private:
     std::vector<GfMatrix4d> localTransforms(VtIntArray const& indices,
                                             GfMatrix4d const& instancerTransform) const;
     std::vector<hipr::Primvar> localPrimvars(VtIntArray const& indices) const;
+    std::vector<std::vector<std::string>> localCategories(VtIntArray const& indices) const;
 
     std::map<TfToken, VtValue> _primvars;
 };
 
 namespace hdhipr {
+
+/// The collections of lights that something is in.
+std::vector<std::string> toNames(VtArray<TfToken> const& categories);
+
+/// Whether instances are in collections of lights, at any level from this instancer up; empty: there is none.
+bool instancesLinked(HdSceneDelegate& delegate, SdfPath const& instancerId);
 
 /// Where an rprim stands: once, or as its instancer says. Without the instancer that it names it stands
 /// nowhere, which is told.

@@ -62,6 +62,7 @@ void HdHiprLight::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, Hd
     }
     if (*dirtyBits & (DirtyParams | DirtyShadowParams | DirtyCollection)) {
         syncParams(delegate);
+        syncLinks(delegate, *dirtyBits);
         reportUnsupported(delegate);
     }
     send(delegate, param);
@@ -122,6 +123,30 @@ void HdHiprLight::syncParams(HdSceneDelegate* delegate) {
         _desc.texture = assetPath(lightParam(delegate, GetId(), TfToken("texture:file")));
     }
     _desc.shaping = readShaping(delegate);
+    _desc.shadow = readShadow(delegate);
+}
+
+void HdHiprLight::syncLinks(HdSceneDelegate* delegate, HdDirtyBits bits) {
+    const auto link = [&](const char* name) {
+        const VtValue id = delegate->GetLightParamValue(GetId(), TfToken(name));
+        return id.IsHolding<TfToken>() ? id.UncheckedGet<TfToken>().GetString() : std::string();
+    };
+    _desc.lightLink = link("lightLink");
+    _desc.shadowLink = link("shadowLink");
+    if ((bits & DirtyCollection) && !(_desc.lightLink.empty() && _desc.shadowLink.empty())) {
+        collectionsChanged(delegate->GetRenderIndex());
+    }
+}
+
+hipr::LightShadow HdHiprLight::readShadow(HdSceneDelegate* delegate) const {
+    const Params params{delegate, GetId()};
+    hipr::LightShadow shadow;
+    shadow.enable = params.get("shadow:enable", true);
+    shadow.color = toGlm(params.get("shadow:color", GfVec3f(0.f)));
+    shadow.distance = params.get("shadow:distance", -1.f);
+    shadow.falloff = params.get("shadow:falloff", -1.f);
+    shadow.falloffGamma = params.get("shadow:falloffGamma", 1.f);
+    return shadow;
 }
 
 /// The cone of a light without ShapingAPI is the whole sphere; that of one with it is 90 degrees by default,
@@ -147,9 +172,6 @@ void HdHiprLight::reportUnsupported(HdSceneDelegate* delegate) const {
     if (_desc.kind == hipr::LightKind::Dome && !_desc.shaping.iesFile.empty()) {
         ignored("an IES profile on a dome light (shaping:ies:file)");
     }
-    if (!params.get("shadow:enable", true)) {
-        ignored("switching shadows off (shadow:enable)");
-    }
     if (params.get("treatAsPoint", false)) {
         ignored("treatAsPoint");
     }
@@ -159,12 +181,6 @@ void HdHiprLight::reportUnsupported(HdSceneDelegate* delegate) const {
     const TfToken format = params.get("texture:format", TfToken("automatic"));
     if (_desc.kind == hipr::LightKind::Dome && format != "automatic" && format != "latlong") {
         ignored("a dome texture that is not latitude-longitude (texture:format)");
-    }
-    for (const char* link : {"lightLink", "shadowLink"}) {
-        const VtValue id = delegate->GetLightParamValue(GetId(), TfToken(link));
-        if (id.IsHolding<TfToken>() && !id.UncheckedGet<TfToken>().IsEmpty()) {
-            ignored(link);
-        }
     }
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr HdDirtyBits objectBits = HdChangeTracker::DirtyVisibility | HdChangeTracker::DirtyMaterialId |
                                    HdChangeTracker::DirtyPrimID | HdChangeTracker::DirtyRenderTag |
-                                   HdChangeTracker::DirtyTopology;
+                                   HdChangeTracker::DirtyTopology | HdChangeTracker::DirtyCategories;
 constexpr HdDirtyBits instanceBits =
     HdChangeTracker::DirtyTransform | HdChangeTracker::DirtyInstancer | HdChangeTracker::DirtyInstanceIndex;
 constexpr HdDirtyBits styleBits =
@@ -106,10 +106,15 @@ void HdHiprMesh::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdD
     if (rebuild != Rebuild::None) {
         sendGeometry(rebuild, param);
     }
+    bool relinked = false;
+    if (bits & HdChangeTracker::DirtyCategories) {
+        _categories = toNames(delegate->GetCategories(GetId()));
+        relinked = _instancesLinked || instancesLinked(*delegate, GetInstancerId());
+    }
     if (bits & objectBits) {
         sendObject(delegate, param);
     }
-    if (bits & instanceBits) {
+    if (relinked || (bits & instanceBits)) {
         sendInstances(delegate, param);
     }
     // Last: UsdImaging hands out the points once, and asking for samples of them counts.
@@ -307,6 +312,7 @@ void HdHiprMesh::sendObject(HdSceneDelegate* delegate, HdHiprRenderParam& param)
     state.desc.geometry = _geometry;
     state.desc.visible = IsVisible();
     state.desc.primId = GetPrimId();
+    state.desc.categories = _categories;
     const hipr::MaterialId own = param.materialId(GetMaterialId());
     state.desc.materials.push_back(own);
     for (SdfPath const& path : _subsetMaterials) {
@@ -322,7 +328,9 @@ void HdHiprMesh::renderTagChanged(HdSceneDelegate* delegate, HdRenderParam* rend
 }
 
 void HdHiprMesh::sendInstances(HdSceneDelegate* delegate, HdHiprRenderParam& param) {
-    param.edit().setInstances(_object, readInstances(*delegate, GetId(), GetInstancerId()));
+    hipr::InstancesDesc instances = readInstances(*delegate, GetId(), GetInstancerId());
+    _instancesLinked = !instances.categories.empty();
+    param.edit().setInstances(_object, std::move(instances));
 }
 
 PXR_NAMESPACE_CLOSE_SCOPE

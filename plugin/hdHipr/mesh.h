@@ -56,6 +56,8 @@ private:
     hdhipr::MeshStyle _style;
     bool _computed = false; ///< some primvars are computed
     SdfPathVector _subsetMaterials;
+    std::vector<std::string> _categories; ///< collections of lights that it is in
+    bool _instancesLinked = false;        ///< some instances are in others
     std::shared_ptr<const hipr::TriangleMesh> _mesh;
 };
 

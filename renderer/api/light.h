@@ -29,6 +29,17 @@ struct LightShaping {
     bool operator==(const LightShaping& o) const { return members() == o.members(); }
 };
 
+/// What a light's shadows look like (UsdLuxShadowAPI); physical ones are the default.
+struct LightShadow {
+    bool enable = true;
+    glm::vec3 color{0.f};     ///< share of the light that gets through occluders
+    float distance = -1.f;    ///< occluders further from the lit point cast none; below 0: all do
+    float falloff = -1.f;     ///< within `distance`, over which shadows fade out; 0 and below: none
+    float falloffGamma = 1.f; ///< exponent of that fading, above 0
+    auto members() const { return std::tie(enable, color, distance, falloff, falloffGamma); }
+    bool operator==(const LightShadow& o) const { return members() == o.members(); }
+};
+
 /// A UsdLux light. Rect and disk emit along local -Z; the cylinder's axis is local X; the distant light
 /// shines along local -Z; the dome maps latitude-longitude with local +Y up, image centre toward local +Z...
 /// see shaders/light/environment.glsl for the exact mapping.
@@ -50,10 +61,13 @@ struct LightDesc {
     bool visible = true;                 ///< false: the light is off
     std::string texture; ///< dome: latitude-longitude image; rect: image on the emitter. May be empty
     LightShaping shaping;
+    LightShadow shadow;
+    std::string lightLink;  ///< the category (ObjectDesc::categories) whose objects are lit; empty: all
+    std::string shadowLink; ///< the category whose objects cast shadows; empty: all
     auto members() const {
         return std::tie(name, kind, transform, intensity, exposure, color, enableColorTemperature,
                         colorTemperature, normalize, radius, width, height, length, angle, diffuse, specular,
-                        visible, texture, shaping);
+                        visible, texture, shaping, shadow, lightLink, shadowLink);
     }
     bool operator==(const LightDesc& o) const { return members() == o.members(); }
 };

@@ -6,8 +6,9 @@
 namespace hipr {
 
 std::string toString(Change change) {
-    static constexpr const char* names[] = {"added",    "removed",  "transform",  "geometry", "primvar",
-                                            "material", "emission", "visibility", "camera",   "setting"};
+    static constexpr const char* names[] = {"added",   "removed",  "transform", "geometry",
+                                            "primvar", "material", "emission",  "visibility",
+                                            "camera",  "setting",  "linking"};
     std::string text;
     for (size_t bit = 0; bit < std::size(names); ++bit)
         if (change & Change(1u << bit)) text += (text.empty() ? "" : ", ") + std::string(names[bit]);

@@ -19,10 +19,12 @@ namespace hipr {
 struct ObjectDesc {
     std::string name;
     GeometryId geometry = GeometryId::None;
-    std::vector<MaterialId> materials; ///< by slot; a missing or None entry uses the fallback look (displayColor)
+    std::vector<MaterialId>
+        materials; ///< by slot; a missing or None entry uses the fallback look (displayColor)
     bool visible = true;
-    int primId = -1;                   ///< written to the primId AOV
-    SplatsId splats = SplatsId::None;  ///< a cloud of splats, which has no materials, instead of a geometry
+    int primId = -1;                  ///< written to the primId AOV
+    SplatsId splats = SplatsId::None; ///< a cloud of splats, which has no materials, instead of a geometry
+    std::vector<std::string> categories{}; ///< what lights may be linked to: LightDesc::lightLink, shadowLink
 };
 
 /// All placements of one object. The geometry is never copied per instance. An object that was never given
@@ -30,7 +32,9 @@ struct ObjectDesc {
 struct InstancesDesc {
     std::vector<glm::mat4x3> transforms; ///< object to world, column-major 4 columns of 3 rows
     std::vector<int> instanceIds;        ///< written to the instanceId AOV; empty: 0, 1, 2...
-    std::vector<Primvar> primvars;       ///< one value per instance; override the mesh's primvar of the same name
+    std::vector<Primvar> primvars; ///< one value per instance; override the mesh's primvar of the same name
+    std::vector<std::vector<std::string>>
+        categories{}; ///< of each instance, beside the object's; may be shorter
 };
 
 /// What kind of change happened to an element; bits combine.
@@ -39,21 +43,26 @@ enum class Change : uint32_t {
     Added = 1u << 0,
     Removed = 1u << 1,
     Transform = 1u << 2,
-    Geometry = 1u << 3,   ///< topology or points
+    Geometry = 1u << 3, ///< topology or points
     Primvar = 1u << 4,
-    Material = 1u << 5,   ///< binding or content
+    Material = 1u << 5, ///< binding or content
     Emission = 1u << 6,
     Visibility = 1u << 7,
     Camera = 1u << 8,
-    Setting = 1u << 9,    ///< a setting that matters to the picture, or the film
+    Setting = 1u << 9,  ///< a setting that matters to the picture, or the film
+    Linking = 1u << 10, ///< the categories by which lights are linked
 };
-constexpr Change operator|(Change a, Change b) { return Change(uint32_t(a) | uint32_t(b)); }
-constexpr bool operator&(Change a, Change b) { return (uint32_t(a) & uint32_t(b)) != 0; }
+constexpr Change operator|(Change a, Change b) {
+    return Change(uint32_t(a) | uint32_t(b));
+}
+constexpr bool operator&(Change a, Change b) {
+    return (uint32_t(a) & uint32_t(b)) != 0;
+}
 /// Its kinds in words: "transform, material".
 std::string toString(Change change);
 
-/// One changed element. `instance` is the index into InstancesDesc::transforms (before the edit if the instance
-/// was removed), or AllInstances.
+/// One changed element. `instance` is the index into InstancesDesc::transforms (before the edit if the
+/// instance was removed), or AllInstances.
 struct ChangedElement {
     static constexpr uint32_t AllInstances = std::numeric_limits<uint32_t>::max();
     std::variant<std::monostate, ObjectId, LightId, MaterialId> element; ///< monostate: camera or setting
@@ -93,13 +102,33 @@ public:
     void append(SceneEdit& later);
 
     /// One recorded call; a null payload means removal.
-    struct GeometryOp { GeometryId id; std::shared_ptr<const TriangleMesh> mesh; };
-    struct SplatsOp { SplatsId id; std::shared_ptr<const SplatCloud> cloud; };
-    struct MaterialOp { MaterialId id; std::optional<MaterialDesc> desc; };
-    struct LightOp { LightId id; std::optional<LightDesc> desc; };
-    struct ObjectOp { ObjectId id; std::optional<ObjectDesc> desc; };
-    struct InstancesOp { ObjectId id; InstancesDesc desc; };
-    struct CameraOp { CameraDesc desc; };
+    struct GeometryOp {
+        GeometryId id;
+        std::shared_ptr<const TriangleMesh> mesh;
+    };
+    struct SplatsOp {
+        SplatsId id;
+        std::shared_ptr<const SplatCloud> cloud;
+    };
+    struct MaterialOp {
+        MaterialId id;
+        std::optional<MaterialDesc> desc;
+    };
+    struct LightOp {
+        LightId id;
+        std::optional<LightDesc> desc;
+    };
+    struct ObjectOp {
+        ObjectId id;
+        std::optional<ObjectDesc> desc;
+    };
+    struct InstancesOp {
+        ObjectId id;
+        InstancesDesc desc;
+    };
+    struct CameraOp {
+        CameraDesc desc;
+    };
     using Op = std::variant<GeometryOp, SplatsOp, MaterialOp, LightOp, ObjectOp, InstancesOp, CameraOp>;
 
     /// Moves the recorded calls out, in order. Used by Renderer::commit().

@@ -71,9 +71,10 @@ void mergeElements(ChangedSet& changed) {
 } // namespace
 
 GpuScene::GpuScene(Device& device, AssetReader assets)
-    : _device(device), _textures(device, std::move(assets), ColorManager::create(device.messages())),
-      _materials(device, _names, _textures), _lights(device, _textures), _geometries(device, _names),
-      _objects(device, _names),
+    : _device(device), _categories(device),
+      _textures(device, std::move(assets), ColorManager::create(device.messages())),
+      _materials(device, _names, _textures), _lights(device, _textures, _categories),
+      _geometries(device, _names), _objects(device, _names, _categories),
       _record(device.createBuffer(sizeof(gpu::SceneRecord), MemoryUse::Device, "Scene")) {}
 
 void GpuScene::setTraversal(std::unique_ptr<Traversal> traversal) {
@@ -185,6 +186,8 @@ void GpuScene::commit() {
     _objects.describe(_hostRecord);
     commitLights();
     _lights.describe(_hostRecord);
+    _categories.commit();
+    _categories.describe(_hostRecord);
     _geometries.describe(_hostRecord);
     _materials.describe(_hostRecord);
     _textures.describe(_hostRecord);

@@ -6,6 +6,7 @@
 
 #include "renderer/api/settings.h"
 #include "renderer/scene/object_table.h"
+#include "renderer/shading/categories.h"
 #include "renderer/shading/lights.h"
 #include "renderer/shading/materials.h"
 
@@ -67,7 +68,7 @@ public:
     bool anythingTraced() const { return !_objects.records().empty(); }
     /// The SceneRecord, once committed.
     VkDeviceAddress address() const { return _record.address(); }
-    bool hasNonOpaque() const { return (_hostRecord.flags & gpu::SCENE_HAS_NON_OPAQUE) != 0; }
+    uint32_t flags() const { return _hostRecord.flags; } ///< SCENE_*
     uint64_t meshHostBytes() const { return _geometries.hostBytes(); }
     uint64_t splatHostBytes() const { return _splats.hostBytes(); }
     uint64_t traversalHostBytes() const { return _traversal->hostBytes(); }
@@ -84,6 +85,7 @@ private:
 
     Device& _device;
     NameTable _names;
+    CategoryTable _categories;
     TextureStore _textures;
     MaterialTable _materials;
     LightTable _lights;

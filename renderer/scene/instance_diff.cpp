@@ -36,6 +36,7 @@ public:
     Change change(size_t i, size_t j) const {
         Change change = Change::None;
         if (!sameTransform(_before.transforms[i], _now.transforms[j])) change = Change::Transform;
+        if (!sameCategories(i, j)) change = change | Change::Linking;
         return sameId(i, j) && samePrimvars(i, j) ? change : change | Change::Primvar;
     }
     bool same(size_t i, size_t j) const { return change(i, j) == Change::None; }
@@ -54,6 +55,11 @@ private:
         const std::vector<int>&old = _before.instanceIds, &now = _now.instanceIds;
         if (i >= old.size() && j >= now.size()) return true; // counted, so none of their own
         return (i < old.size() ? old[i] : int(i)) == (j < now.size() ? now[j] : int(j));
+    }
+    bool sameCategories(size_t i, size_t j) const {
+        const auto &old = _before.categories, &now = _now.categories;
+        if (i < old.size() && j < now.size()) return old[i] == now[j];
+        return (i >= old.size() || old[i].empty()) && (j >= now.size() || now[j].empty());
     }
     bool samePrimvars(size_t i, size_t j) const {
         return std::all_of(_pairs.begin(), _pairs.end(), [&](const auto& pair) {

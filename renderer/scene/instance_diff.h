@@ -20,7 +20,8 @@ struct InstanceChange {
 /// Instances that only come or go, anywhere in the list, are Added or Removed and leave the others alone: to
 /// be numbered anew is no change of an instance unless its InstancesDesc::instanceIds say so. Otherwise
 /// instances of the same index are compared: Transform where they stand elsewhere, Primvar where a primvar
-/// or the id has another value; the longer list's tail is Added or Removed.
+/// or the id has another value, Linking where the categories differ; the longer list's tail is Added or
+/// Removed.
 std::vector<InstanceChange> changedInstances(const InstancesDesc& before, const InstancesDesc& now);
 
 /// Where a primvar holds the value of an instance, whichever way it is indexed; -1 when nowhere.

@@ -39,7 +39,7 @@ bool isTranslucent(const std::vector<Primvar>& primvars) {
 bool ObjectTable::Placement::operator==(const Placement& o) const {
     return first == o.first && count == o.count && geometry == o.geometry &&
            firstMaterial == o.firstMaterial && materialCount == o.materialCount && flags == o.flags &&
-           primId == o.primId;
+           primId == o.primId && categories == o.categories;
 }
 
 void ObjectTable::note(ChangedSet& changed, ObjectId id, const Entry& entry, Change change,
@@ -61,6 +61,7 @@ void ObjectTable::setObject(ObjectId id, const ObjectDesc& desc, ChangedSet& cha
         if (entry.desc->materials != desc.materials) change = change | Change::Material;
         if (entry.desc->visible != desc.visible) change = change | Change::Visibility;
         if (entry.desc->primId != desc.primId) change = change | Change::Primvar;
+        if (entry.desc->categories != desc.categories) change = change | Change::Linking;
         if (change != Change::None) vacate(entry);
     }
     entry.boundsPending = true;
@@ -71,7 +72,7 @@ void ObjectTable::setObject(ObjectId id, const ObjectDesc& desc, ChangedSet& cha
 }
 
 void ObjectTable::setInstances(ObjectId id, const InstancesDesc& desc, ChangedSet& changed) {
-    static const InstancesDesc once{{glm::mat4x3(1.f)}, {}, {}};
+    static const InstancesDesc once{{glm::mat4x3(1.f)}, {}, {}, {}};
     Entry& entry = _entries[id];
     const std::vector<InstanceChange> changes =
         changedInstances(entry.instances ? *entry.instances : once, desc);
@@ -184,6 +185,7 @@ ObjectTable::Placement ObjectTable::place(Entry& entry, const Geometry* geometry
     placement.geometry = geometry->slot;
     placement.materialCount = geometry->slotCount;
     placement.primId = entry.desc->primId;
+    placement.categories = _categories.set(entry.desc->categories);
     const bool fallbackNonOpaque =
         geometry->translucent || (entry.instances && isTranslucent(entry.instances->primvars));
     for (uint32_t slot = 0; slot < geometry->slotCount; ++slot) {
@@ -195,6 +197,15 @@ ObjectTable::Placement ObjectTable::place(Entry& entry, const Geometry* geometry
             placement.flags |= gpu::INSTANCE_NON_OPAQUE;
     }
     return placement;
+}
+
+uint32_t ObjectTable::categoriesOf(const Entry& entry, uint32_t instance) {
+    const bool own = entry.instances && instance < entry.instances->categories.size() &&
+                     !entry.instances->categories[instance].empty();
+    if (!own) return entry.placed.categories;
+    std::vector<std::string> names = entry.instances->categories[instance];
+    names.insert(names.end(), entry.desc->categories.begin(), entry.desc->categories.end());
+    return _categories.set(std::move(names));
 }
 
 void ObjectTable::writeRecords(ObjectId id, Entry& entry) {
@@ -215,6 +226,7 @@ void ObjectTable::writeRecords(ObjectId id, Entry& entry) {
         record.instanceId = hasIds ? entry.instances->instanceIds[source] : int(source);
         record.object = uint32_t(id);
         record.objectInstance = source;
+        record.categories = categoriesOf(entry, source);
         record.primvarCount = entry.primvarCount;
         record.primvars =
             entry.primvarCount ? entry.primvarTable + i * entry.primvarCount * sizeof(gpu::PrimvarRecord) : 0;

@@ -10,6 +10,7 @@
 #include "renderer/scene/geometry_table.h"
 #include "renderer/scene/splat_table.h"
 #include "renderer/scene/world_box.h"
+#include "renderer/shading/categories.h"
 #include "renderer/shading/materials.h"
 #include "shaders/shared/hipr.h"
 
@@ -19,7 +20,8 @@ namespace hipr {
 /// whatever edits led to it.
 class ObjectTable {
 public:
-    ObjectTable(Device& device, NameTable& names) : _device(device), _names(names) {}
+    ObjectTable(Device& device, NameTable& names, CategoryTable& categories)
+        : _device(device), _names(names), _categories(categories) {}
 
     /// Each reports what differs from before into `changed`. Between two commits, instances are to be set
     /// once per object: removed ones are named by their index in the committed scene.
@@ -60,6 +62,7 @@ private:
     struct Placement {
         uint32_t first = 0, count = 0, geometry = 0, firstMaterial = 0, materialCount = 0, flags = 0;
         int primId = -1;
+        uint32_t categories = 0;
         bool operator==(const Placement& o) const;
     };
     struct Entry {
@@ -92,6 +95,7 @@ private:
     const std::vector<ObjectId>& order();
     void findUsable(Entry& entry);
     void uploadPrimvars(Entry& entry);
+    uint32_t categoriesOf(const Entry& entry, uint32_t instance);
     void writeRecords(ObjectId id, Entry& entry);
     void uploadRecords(const std::vector<std::pair<ObjectId, Entry*>>& rewritten);
     void summarise(const GeometryTable& geometries);
@@ -103,6 +107,7 @@ private:
 
     Device& _device;
     NameTable& _names;
+    CategoryTable& _categories;
     std::map<ObjectId, Entry> _entries;
     std::vector<ObjectId> _order; ///< of another size than `_entries`: to be made anew
     std::vector<gpu::InstanceRecord> _records;

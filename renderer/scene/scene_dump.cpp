@@ -195,6 +195,10 @@ void dumpLight(SceneDump& dump, const LightDesc& light, bool emits) {
     out.fact("focus", shaping.focus, "tint", shaping.focusTint);
     out.fact("cone", shaping.coneAngle, "softness", shaping.coneSoftness);
     out.fact("ies", shaping.iesFile, "angleScale", shaping.iesAngleScale, "normalize", shaping.iesNormalize);
+    const LightShadow& shadow = light.shadow;
+    out.fact("shadow", shadow.enable, shadow.color, "distance", shadow.distance, "falloff", shadow.falloff,
+             shadow.falloffGamma);
+    out.fact("lightLink", light.lightLink, "shadowLink", light.shadowLink);
     out.fact("visible", light.visible);
     out.fact("emits", emits);
 }

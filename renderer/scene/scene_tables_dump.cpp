@@ -36,6 +36,8 @@ void ObjectTable::dump(SceneDump& dump, const GeometryTable& geometries, const S
         out.fact("geometry", geometry ? geometry->mesh->name : std::string());
         const SplatSet* set = splats.find(entry.desc->splats);
         out.fact("splats", set ? set->cloud->name : std::string());
+        for (const std::string& category : entry.desc->categories)
+            out.fact("category", category);
         for (uint32_t slot = 0; slot < entry.desc->materials.size(); ++slot)
             out.fact("slot", slot, "bound", nameOf.byId(entry.desc->materials[slot]));
         for (uint32_t slot = 0; slot < entry.placed.materialCount; ++slot)
@@ -46,12 +48,15 @@ void ObjectTable::dump(SceneDump& dump, const GeometryTable& geometries, const S
 }
 
 void ObjectTable::dumpInstances(SceneDump::Element& out, const Entry& entry) const {
-    static const InstancesDesc once{{glm::mat4x3(1.f)}, {}, {}}; // what an object without any stands for
+    static const InstancesDesc once{{glm::mat4x3(1.f)}, {}, {}, {}}; // what an object without any stands for
     const InstancesDesc& instances = entry.instances ? *entry.instances : once;
     out.fact("instances", instances.transforms.size());
     dumpPrimvars(out, "instance", instances.primvars);
     for (size_t i = 0; i < instances.transforms.size(); ++i) {
         out.fact("instance", i, "transform", instances.transforms[i]);
+        for (const std::string& category :
+             i < instances.categories.size() ? instances.categories[i] : std::vector<std::string>())
+            out.fact("instance", i, "category", category);
         out.fact("instance", i, "id", i < instances.instanceIds.size() ? instances.instanceIds[i] : int(i));
     }
     for (uint32_t i = 0; i < entry.placed.count; ++i) {

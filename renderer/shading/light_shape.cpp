@@ -1,6 +1,7 @@
 #include "renderer/shading/light_shape.h"
 
 #include <cmath>
+#include <limits>
 
 #include "renderer/shading/blackbody.h"
 #include "shaders/shared/scene.h"
@@ -85,11 +86,20 @@ bool positiveSize(const LightDesc& desc) {
 
 bool finiteNumbers(const LightDesc& desc) {
     const LightShaping& s = desc.shaping;
-    const float all[] = {
-        desc.intensity, desc.exposure,  desc.color.x,  desc.color.y,  desc.color.z,  desc.colorTemperature,
-        desc.radius,    desc.width,     desc.height,   desc.length,   desc.angle,    desc.diffuse,
-        desc.specular,  s.focus,        s.focusTint.x, s.focusTint.y, s.focusTint.z, s.coneAngle,
-        s.coneSoftness, s.iesAngleScale};
+    const LightShadow& shadow = desc.shadow;
+    const float all[] = {desc.intensity, desc.exposure,
+                         desc.color.x,   desc.color.y,
+                         desc.color.z,   desc.colorTemperature,
+                         desc.radius,    desc.width,
+                         desc.height,    desc.length,
+                         desc.angle,     desc.diffuse,
+                         desc.specular,  s.focus,
+                         s.focusTint.x,  s.focusTint.y,
+                         s.focusTint.z,  s.coneAngle,
+                         s.coneSoftness, s.iesAngleScale,
+                         shadow.color.x, shadow.color.y,
+                         shadow.color.z, shadow.distance,
+                         shadow.falloff, shadow.falloffGamma};
     bool finite = isFinite(desc.transform);
     for (const float v : all)
         finite = finite && std::isfinite(v);
@@ -176,6 +186,19 @@ bool describeLight(const LightDesc& desc, gpu::LightRecord& record, std::string&
         return false;
     }
     return record.radiance != glm::vec3(0.f) && (record.diffuse > 0.f || record.specular > 0.f);
+}
+
+std::optional<gpu::ShadowRecord> describeShadow(const LightShadow& shadow, uint32_t category) {
+    const bool plain = shadow.enable && shadow.color == glm::vec3(0.f) && shadow.distance < 0.f;
+    if (plain && category == gpu::NO_INDEX) return std::nullopt;
+    gpu::ShadowRecord record{};
+    record.color = shadow.enable ? glm::max(shadow.color, glm::vec3(0.f)) : glm::vec3(1.f);
+    record.end = shadow.distance < 0.f ? std::numeric_limits<float>::infinity() : shadow.distance;
+    const bool fades = shadow.distance > 0.f && shadow.falloff > 0.f;
+    record.fadeStart = fades ? std::max(shadow.distance - shadow.falloff, 0.f) : record.end;
+    record.gamma = std::max(shadow.falloffGamma, 1e-3f);
+    record.category = category;
+    return record;
 }
 
 double lightPower(const gpu::LightRecord& record, const glm::vec3& pictureMean, double sceneRadius) {

@@ -2,6 +2,7 @@
 /// Checking of light descriptions and their photometry; shaders/light/ has the matching sampling.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "renderer/api/light.h"
@@ -18,6 +19,9 @@ double lightSizeFactor(const LightDesc& desc);
 /// colour * black-body colour, divided by lightSizeFactor() when normalised). Returns false for a light that
 /// emits nothing; then `problem` tells why when that cannot have been meant.
 bool describeLight(const LightDesc& desc, gpu::LightRecord& record, std::string& problem);
+
+/// The record of shadows that are not plain. `category`: of the objects that cast them.
+std::optional<gpu::ShadowRecord> describeShadow(const LightShadow& shadow, uint32_t category);
 
 /// Radiant power up to a common factor, for the choice of a light. `sceneRadius` bounds what infinite lights
 /// reach; `pictureMean` is the mean of the light's texture.

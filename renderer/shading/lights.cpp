@@ -21,6 +21,7 @@ struct LightTable::Impl {
         LightRecord record;
         std::optional<uint32_t> texture;
         LightShaping shaping;
+        std::optional<gpu::ShadowRecord> shadow;
     };
     /// What the table knows of a texture's pixels.
     struct Picture {
@@ -29,11 +30,12 @@ struct LightTable::Impl {
         Buffer table;
     };
 
-    Impl(Device& device, TextureStore& textures)
-        : device(device), textures(textures), profiles(device, textures.assets()) {}
+    Impl(Device& device, TextureStore& textures, CategoryTable& categories)
+        : device(device), textures(textures), categories(categories), profiles(device, textures.assets()) {}
 
     Device& device;
     TextureStore& textures;
+    CategoryTable& categories;
     ProfileStore profiles;
     std::map<LightId, Light> lights; ///< those that emit, as far as their description tells
     std::map<uint32_t, Picture> pictures;
@@ -41,7 +43,8 @@ struct LightTable::Impl {
     uint32_t textureVersion = 0;
     double sceneRadius = -1.0;
     uint32_t areaLights = 0, infiniteLights = 0;
-    Buffer records, cumulative, shapings;
+    Buffer records, cumulative, shapings, shadows;
+    bool hasShadows = false;
 
     void forget(LightId id);
     const Picture& picture(uint32_t texture);
@@ -49,6 +52,9 @@ struct LightTable::Impl {
     std::vector<Light*> inOrder();
     bool bindTexture(Light& light, LightRecord& record, glm::vec3& mean);
     double shape(const Light& light, LightRecord& record, std::vector<gpu::ShapingRecord>& table);
+    template <class Record>
+    void uploadParts(const std::vector<Record>& parts, uint64_t LightRecord::*address,
+                     std::vector<LightRecord>& table, Buffer& buffer);
     void rebuild();
     void upload(std::vector<LightRecord>& table, const std::vector<double>& chances);
 };
@@ -108,8 +114,8 @@ bool LightTable::Impl::bindTexture(Light& light, LightRecord& record, glm::vec3&
     return !known.dome.values.empty();
 }
 
-/// Adds the light's shaping to the table; `record` refers to it by its place there, counted from 1, until the
-/// table is on the device. Returns the share of the light's power that is left.
+/// Adds the light's shaping to the table; `record` refers to it by its place there, counted from 1, until
+/// uploadParts(). Returns the share of the light's power that is left.
 double LightTable::Impl::shape(const Light& light, LightRecord& record,
                                std::vector<gpu::ShapingRecord>& table) {
     if (light.record.kind == gpu::LIGHT_DOME || !isShaped(light.shaping)) return 1.0;
@@ -121,8 +127,18 @@ double LightTable::Impl::shape(const Light& light, LightRecord& record,
     return shapedShare(table.back(), profile, flat);
 }
 
+/// Uploads what some lights have beside their records, and turns their numbers of it into addresses.
+template <class Record>
+void LightTable::Impl::uploadParts(const std::vector<Record>& parts, uint64_t LightRecord::*address,
+                                   std::vector<LightRecord>& table, Buffer& buffer) {
+    buffer = device.createFrom(parts.data(), parts.size(), "light tables");
+    for (LightRecord& record : table)
+        if (record.*address) record.*address = buffer.address() + (record.*address - 1) * sizeof(Record);
+}
+
 void LightTable::Impl::rebuild() {
     std::vector<LightRecord> table;
+    std::vector<gpu::ShadowRecord> shadowTable;
     std::vector<gpu::ShapingRecord> shapingTable;
     std::vector<double> powers;
     areaLights = infiniteLights = 0;
@@ -136,15 +152,15 @@ void LightTable::Impl::rebuild() {
             if (isInfinite != infinite || !bindTexture(*light, record, mean)) continue;
             const double share = shape(*light, record, shapingTable);
             if (!(share > 0.0)) continue;
+            if (light->shadow) shadowTable.push_back(*light->shadow), record.shadow = shadowTable.size();
             table.push_back(record);
             powers.push_back(share * lightPower(record, mean, sceneRadius));
             ++(infinite ? infiniteLights : areaLights);
         }
     profiles.dropUnused();
-    shapings = device.createFrom(shapingTable.data(), shapingTable.size(), "light tables");
-    for (LightRecord& record : table)
-        if (record.shaping)
-            record.shaping = shapings.address() + (record.shaping - 1) * sizeof(gpu::ShapingRecord);
+    uploadParts(shapingTable, &LightRecord::shaping, table, shapings);
+    uploadParts(shadowTable, &LightRecord::shadow, table, shadows);
+    hasShadows = !shadowTable.empty();
     upload(table, lightChances(powers));
 }
 
@@ -156,14 +172,15 @@ void LightTable::Impl::upload(std::vector<LightRecord>& table, const std::vector
     cumulative = device.createFrom(sums.data(), sums.size(), "light tables");
 }
 
-LightTable::LightTable(Device& device, TextureStore& textures)
-    : _impl(std::make_unique<Impl>(device, textures)) {}
+LightTable::LightTable(Device& device, TextureStore& textures, CategoryTable& categories)
+    : _impl(std::make_unique<Impl>(device, textures, categories)) {}
 LightTable::~LightTable() = default;
 
 void LightTable::set(LightId id, const LightDesc& desc) {
     Impl::Light light;
     light.name = desc.name;
     light.shaping = desc.shaping;
+    light.shadow = describeShadow(desc.shadow, _impl->categories.category(desc.shadowLink));
     std::string problem;
     const bool emits = describeLight(desc, light.record, problem);
     if (!problem.empty() && _impl->device.messages())
@@ -176,6 +193,7 @@ void LightTable::set(LightId id, const LightDesc& desc) {
     _impl->forget(id); // after the acquire: a texture in both stays loaded
     if (!emits) return;
     light.record.light = uint32_t(id);
+    light.record.category = _impl->categories.category(desc.lightLink);
     _impl->lights[id] = light;
     _impl->changed = true;
 }
@@ -213,6 +231,7 @@ void LightTable::describe(gpu::SceneRecord& scene) const {
     scene.lightCount = count();
     scene.areaLightCount = _impl->areaLights;
     scene.infiniteLightCount = _impl->infiniteLights;
+    if (_impl->hasShadows) scene.flags |= gpu::SCENE_HAS_SHADOWS_TO_WALK;
 }
 
 } // namespace hipr

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "renderer/api/scene.h"
+#include "renderer/shading/categories.h"
 #include "renderer/shading/textures.h"
 #include "renderer/vulkan/device.h"
 #include "shaders/shared/light.h"
@@ -18,7 +19,7 @@ namespace hipr {
 /// the same to the last bit whatever edits led to it. Used by one thread.
 class LightTable {
 public:
-    LightTable(Device& device, TextureStore& textures);
+    LightTable(Device& device, TextureStore& textures, CategoryTable& categories);
     ~LightTable();
 
     void set(LightId id, const LightDesc& desc);
@@ -34,7 +35,8 @@ public:
     /// Whether the light emits, as far as its description tells.
     bool emits(LightId id) const;
 
-    /// Fills SceneRecord::lights, lightCumulative, lightCount, areaLightCount and infiniteLightCount.
+    /// Fills SceneRecord::lights, lightCumulative, lightCount, areaLightCount and infiniteLightCount,
+    /// and SCENE_HAS_SHADOWS_TO_WALK.
     void describe(gpu::SceneRecord& scene) const;
 
 private:

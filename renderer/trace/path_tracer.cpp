@@ -28,11 +28,11 @@ PathTracer::PathTracer(Device& device, uint32_t capacity)
       _record(device.createBuffer(sizeof(gpu::TraceRecord), MemoryUse::Device, "Path queues")),
       _camera(device.createBuffer(sizeof(gpu::CameraRecord), MemoryUse::Device, "Path queues")) {}
 
-void PathTracer::setup(gpu::TraceRecord record, const gpu::CameraRecord& camera, bool sceneHasNonOpaque) {
+void PathTracer::setup(gpu::TraceRecord record, const gpu::CameraRecord& camera, uint32_t sceneFlags) {
     _buffers.describe(record);
     record.camera = _camera.address();
     _scene = record.scene;
-    _nonOpaque = sceneHasNonOpaque;
+    _sceneFlags = sceneFlags;
     _device.upload(_record, &record, sizeof(record));
     _device.upload(_camera, &camera, sizeof(camera));
 }
@@ -99,7 +99,9 @@ void PathTracer::raygen(Steps& steps, const std::vector<gpu::TileWork>& tiles, u
 void PathTracer::resolveShadows(Steps& steps, uint32_t turn) {
     steps.occluded("trace shadow", _buffers.shadowQueue(turn));
     dispatchQueue(steps, "shadow", kernel(KernelId::Shadow), gpu::QUEUE_SHADOW + turn, turn);
-    if (!_nonOpaque) return;
+    const bool shadows = _sceneFlags & gpu::SCENE_HAS_SHADOWS_TO_WALK;
+    if (!shadows && !(_sceneFlags & gpu::SCENE_HAS_NON_OPAQUE)) return;
+    const uint32_t mask = shadows ? gpu::RAY_MASK_ALL : gpu::RAY_MASK_NON_OPAQUE;
     for (uint32_t i = 0; i < gpu::SHADOW_PASS_LIMIT; ++i) {
         const uint32_t queue = gpu::QUEUE_TRANSMIT + i % 2, other = gpu::QUEUE_TRANSMIT + (i + 1) % 2;
         prepare(steps, bit(queue), bit(other));
@@ -107,7 +109,7 @@ void PathTracer::resolveShadows(Steps& steps, uint32_t turn) {
             steps.flush();
             if (queueCount(queue) == 0) break;
         }
-        steps.nearest("trace transmit", _buffers.transmitQueue(i % 2));
+        steps.nearest("trace transmit", _buffers.transmitQueue(i % 2, mask));
         dispatchQueue(steps, "transmit", kernel(KernelId::Transmit), queue, i % 2);
     }
     prepare(steps, 0, bit(gpu::QUEUE_TRANSMIT) | bit(gpu::QUEUE_TRANSMIT + 1));

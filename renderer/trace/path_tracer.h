@@ -22,7 +22,9 @@
 /// (Settings::maxDepth) the BSDF sample is still traced, and collects light only, so that both halves of the
 /// last bounce's estimate exist. A surface of presence below 1 lets paths through at random without counting
 /// a bounce, and shadow rays through attenuated: they first test opaque instances, survivors then walk the
-/// others hit by hit. Both walks are bounded (PATH_PASS_LIMIT, SHADOW_PASS_LIMIT in shaders/shared/trace.h).
+/// others hit by hit. So do shadow rays that were blocked if the light's shadows are coloured, end somewhere,
+/// or are cast by some objects only; what gets through then is found by light samples alone. Both walks are
+/// bounded (PATH_PASS_LIMIT, SHADOW_PASS_LIMIT in shaders/shared/trace.h).
 ///
 /// Alpha is 1 where a sample saw a surface or the shape of a light, 0 where it saw only the sky or nothing.
 ///
@@ -52,8 +54,8 @@ public:
     uint32_t capacity() const { return _buffers.capacity; }
 
     /// What the next batches render: addresses of scene and film, film size and settings are the caller's to
-    /// fill in.
-    void setup(gpu::TraceRecord record, const gpu::CameraRecord& camera, bool sceneHasNonOpaque);
+    /// fill in. `sceneFlags`: SCENE_*.
+    void setup(gpu::TraceRecord record, const gpu::CameraRecord& camera, uint32_t sceneFlags);
 
     /// Renders the tiles and adds them to the film. False when `cancel` was seen: then the film is as before.
     /// `discovery`, if any, gets the weights of this batch.
@@ -103,7 +105,7 @@ private:
     WavefrontBuffers _buffers;
     Buffer _record, _camera;
     VkDeviceAddress _scene = 0;
-    bool _nonOpaque = false;
+    uint32_t _sceneFlags = 0;
     Profile _profile;
 };
 

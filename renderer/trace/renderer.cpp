@@ -164,7 +164,7 @@ bool RendererImpl::setup() {
     record.seed = uint32_t(_settings.seed);
     record.discovery = _edits.address();
     record.changeScale = _edits.changeScale();
-    _tracer.setup(record, *camera, _scene.hasNonOpaque());
+    _tracer.setup(record, *camera, _scene.flags());
     _setupPending = false;
     return true;
 }

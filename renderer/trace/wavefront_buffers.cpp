@@ -22,7 +22,7 @@ WavefrontBuffers::WavefrontBuffers(Device& device, uint32_t capacity) : capacity
         rays[i] = make(capacity, sizeof(gpu::Ray));
         raySlots[i] = make(capacity, sizeof(uint32_t));
         transmitRays[i] = make(capacity, sizeof(gpu::Ray));
-        transmitWork[i] = make(capacity, sizeof(gpu::ShadowWork));
+        transmitWork[i] = make(capacity, sizeof(gpu::TransmitWork));
     }
     const gpu::QueueHeader empty[gpu::QUEUE_COUNT] = {};
     device.upload(headers, empty, sizeof(empty));
@@ -60,9 +60,8 @@ TraceQueue WavefrontBuffers::shadowQueue(uint32_t turn) const {
             gpu::RAY_MASK_OPAQUE};
 }
 
-TraceQueue WavefrontBuffers::transmitQueue(uint32_t turn) const {
-    return {&headers, headerOffset(gpu::QUEUE_TRANSMIT + turn), &transmitRays[turn], &transmitHits,
-            gpu::RAY_MASK_NON_OPAQUE};
+TraceQueue WavefrontBuffers::transmitQueue(uint32_t turn, uint32_t mask) const {
+    return {&headers, headerOffset(gpu::QUEUE_TRANSMIT + turn), &transmitRays[turn], &transmitHits, mask};
 }
 
 } // namespace hipr

@@ -7,7 +7,7 @@
 
 namespace hipr {
 
-/// About 361 bytes a path.
+/// About 430 bytes a path.
 struct WavefrontBuffers {
     WavefrontBuffers(Device& device, uint32_t capacity);
 
@@ -16,7 +16,8 @@ struct WavefrontBuffers {
 
     TraceQueue rayQueue(uint32_t turn) const;
     TraceQueue shadowQueue(uint32_t turn) const;
-    TraceQueue transmitQueue(uint32_t turn) const;
+    /// `mask`: the instances that the rays may meet.
+    TraceQueue transmitQueue(uint32_t turn, uint32_t mask) const;
     static uint64_t headerOffset(uint32_t queue) { return queue * sizeof(gpu::QueueHeader); }
 
     const uint32_t capacity; ///< paths

@@ -13,10 +13,12 @@ float hitWeight(LightRecord light, float bsdfPdf, float lightPdf) {
 
 // Radiance of the area lights between ray.tMin and `tHit`. They are ghosts: all that lie on the way add up. Densities are
 // those of sampling from ray.origin: a ray that went straight through surfaces keeps its origin and moves its tMin.
-vec3 lightsAlongRay(SceneRecord scene, Ray ray, float tHit, bool cameraRay, float bsdfPdf) {
+// `categories`: the set of the surface that the ray left; the camera sees all lights.
+vec3 lightsAlongRay(SceneRecord scene, Ray ray, float tHit, bool cameraRay, float bsdfPdf, uint categories) {
     vec3 sum = vec3(0.0);
     [[dont_unroll]] for (uint i = 0u; i < scene.areaLightCount; ++i) {
         LightRecord light = LightRef(scene.lights).v[i];
+        if (!cameraRay && !inCategory(scene, categories, light.category)) continue;
         LightPoint hit;
         if (!meetLight(light, ray.origin, ray.direction, hit) || hit.t <= ray.tMin || hit.t >= tHit) continue;
         float weight = hitWeight(light, cameraRay ? -1.0 : bsdfPdf, hit.pdf);
@@ -27,12 +29,13 @@ vec3 lightsAlongRay(SceneRecord scene, Ray ray, float tHit, bool cameraRay, floa
 
 // Radiance of dome and distant lights for a ray that left the scene. Distant lights are not seen by camera rays; domes
 // are, unless SCENE_DOME_HIDDEN_FROM_CAMERA.
-vec3 environmentRadiance(SceneRecord scene, vec3 direction, bool cameraRay, float bsdfPdf) {
+vec3 environmentRadiance(SceneRecord scene, vec3 direction, bool cameraRay, float bsdfPdf, uint categories) {
     vec3 sum = vec3(0.0);
     bool domes = !(cameraRay && (scene.flags & SCENE_DOME_HIDDEN_FROM_CAMERA) != 0u);
     uint end = scene.areaLightCount + scene.infiniteLightCount;
     [[dont_unroll]] for (uint i = scene.areaLightCount; i < end; ++i) {
         LightRecord light = LightRef(scene.lights).v[i];
+        if (!cameraRay && !inCategory(scene, categories, light.category)) continue;
         vec3 radiance = vec3(0.0);
         float pdf = 1.0;
         if (light.kind == LIGHT_DISTANT) {

@@ -2,6 +2,7 @@
 #ifndef HIPR_LIGHT_SAMPLE_GLSL
 #define HIPR_LIGHT_SAMPLE_GLSL
 #include "light/environment.glsl"
+#include "light/linking.glsl"
 #include "light/shaping.glsl"
 #include "light/shapes.glsl"
 
@@ -11,6 +12,7 @@ struct LightSample {
     vec3 radiance;   // for directions without a density (a distant light of angle 0) radiance times solid angle
     float pdf;       // per solid angle, choice of the light included
     vec2 lobeScale;  // the light's diffuse and specular multipliers, for evalBsdfScaled
+    uint64_t shadow; // LightRecord::shadow
     bool exclusive;  // rays that meet the light do not count it (see isExclusive): the sample has weight 1
 };
 
@@ -78,11 +80,13 @@ bool sampleEnvironment(SceneRecord scene, LightRecord light, vec2 u, inout Light
     return ls.pdf > 0.0;
 }
 
-// Draws one light and a direction from `p` to it; u.x chooses the light, u.yz the direction. False: no light, or this
-// one cannot be seen from `p`.
-bool sampleLight(SceneRecord scene, vec3 p, vec4 u, out LightSample ls) {
+// Draws one light and a direction from `p` to it; u.x chooses the light, u.yz the direction. `categories`: the set of
+// the surface there. False: no light, or this one does not light it or cannot be seen from `p`.
+bool sampleLight(SceneRecord scene, vec3 p, uint categories, vec4 u, out LightSample ls) {
     if (scene.lightCount == 0u) return false;
     LightRecord light = LightRef(scene.lights).v[chooseLight(scene, u.x)];
+    if (!inCategory(scene, categories, light.category)) return false;
+    ls.shadow = light.shadow;
     ls.lobeScale = vec2(light.diffuse, light.specular);
     ls.exclusive = isExclusive(light);
     ls.distance = INFINITE_DISTANCE;

@@ -25,6 +25,16 @@ struct ShapingRecord {
     uint profileColumns;
 };
 
+// Shadows that are not plain: what gets through occluders and which objects are any. See shaders/light/shadow.glsl.
+struct ShadowRecord {
+    vec3 color;
+    float fadeStart;         // distances of an occluder from the lit point
+    float end;
+    float gamma;
+    uint category;           // of the objects that cast shadows, NO_INDEX: all
+    uint pad;
+};
+
 // An emitter: radiance on a shape. Emitters are ghosts: rays that cross one collect its emission and go on, so
 // emitters neither block nor shadow each other, and NEE needs no light-light occlusion.
 struct LightRecord {
@@ -43,6 +53,9 @@ struct LightRecord {
     uint distributionWidth;
     uint distributionHeight;
     uint64_t shaping;        // ShapingRecord, 0: none
+    uint64_t shadow;         // ShadowRecord, 0: plain shadows
+    uint category;           // of the objects that are lit, NO_INDEX: all
+    uint pad;
 };
 
 HIPR_SHARED_END

@@ -33,4 +33,5 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Inp
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer TextureRef { TextureRecord v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer LightRef { LightRecord v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer ShapingRef { ShapingRecord v; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer ShadowRef { ShadowRecord v; };
 #endif

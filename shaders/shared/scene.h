@@ -54,7 +54,7 @@ struct InstanceRecord {
     uint primvarCount;
     uint64_t primvars;       // PrimvarRecord[primvarCount], constant, override the geometry's
     uint objectInstance;     // which of the object's instances: index into InstancesDesc::transforms
-    uint pad;
+    uint categories;         // set of categories, for light linking
 };
 
 // A ray as the trace queues hold it. tMin is 0: origins are offset off their surface.
@@ -91,13 +91,15 @@ struct SceneRecord {
     vec3 boundsMin;          // world bounds of all instances
     vec3 boundsMax;
     uint flags;              // SCENE_*
-    uint pad;
+    uint categoryWords;
     uint64_t specularAlbedo; // vec2[]: see renderer/shading/albedo.h
     uint64_t openPbrAlbedo;  // tables of renderer/shading/openpbr_albedo.h; 0 without a material of that model
+    uint64_t categorySets;   // uint[][categoryWords]: bits of sets of categories, see renderer/shading/categories.h
 };
 
 HIPR_CONST uint SCENE_HAS_NON_OPAQUE = 1u;
 HIPR_CONST uint SCENE_DOME_HIDDEN_FROM_CAMERA = 2u;
+HIPR_CONST uint SCENE_HAS_SHADOWS_TO_WALK = 4u; // some light has a ShadowRecord
 
 HIPR_SHARED_END
 #endif

@@ -75,12 +75,23 @@ struct PathState {
     uint history;            // how it scattered so far: HISTORY_* in hipr.h
     uint medium;             // MEDIUM_*
     uint mediumColor;        // colour of a subsurface medium where the path entered it: packMediumColor() in medium.glsl
+    uint categories;         // InstanceRecord::categories of the surface that scattered it last
 };
 
-// What a shadow ray carries if it arrives.
+// What a shadow ray carries.
 struct ShadowWork {
-    vec3 contribution;
+    vec3 contribution;       // as if no other way led to the light
     uint slot;               // path; SHADOW_INDIRECT added when it belongs to PathState::indirect
+    uint64_t shadow;         // LightRecord::shadow
+    float weight;            // against finding the light by the BSDF, which takes a free way
+    uint pad;
+};
+
+// The same on its way through surfaces.
+struct TransmitWork {
+    ShadowWork work;
+    float direct;            // share that no surface has stopped
+    float aside;             // share that was stopped, by surfaces that cast no shadow of this light
 };
 HIPR_CONST uint SHADOW_INDIRECT = 0x80000000u;
 
@@ -166,7 +177,7 @@ struct TraceRecord {
     uint64_t shadowWork;     // ShadowWork[]
     uint64_t shadowResults;  // uint[]
     uint64_t transmitRays[2];
-    uint64_t transmitWork[2];
+    uint64_t transmitWork[2];// TransmitWork[]
     uint64_t transmitHits;
     uint64_t film;           // FilmPixel[]
     uint64_t visibility;     // VisibilityRecord[]

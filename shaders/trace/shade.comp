@@ -35,6 +35,7 @@ struct Path {
     uint history;
     uint medium;
     uint mediumColor;
+    uint categories;
 };
 
 Path loadPath(TraceRecord trace, uint slot) {
@@ -42,7 +43,7 @@ Path loadPath(TraceRecord trace, uint slot) {
     const uint pixel = paths.v[slot].pixel;
     return Path(slot, paths.v[slot].throughput, paths.v[slot].bsdfPdf, paths.v[slot].event, paths.v[slot].depth,
                 uvec2(pixel & 0xffffu, pixel >> 16), paths.v[slot].sampleIndex, paths.v[slot].history,
-                paths.v[slot].medium, paths.v[slot].mediumColor);
+                paths.v[slot].medium, paths.v[slot].mediumColor, paths.v[slot].categories);
 }
 
 void storePath(TraceRecord trace, Path path) {
@@ -54,6 +55,7 @@ void storePath(TraceRecord trace, Path path) {
     paths.v[path.slot].history = path.history;
     paths.v[path.slot].medium = path.medium;
     paths.v[path.slot].mediumColor = path.mediumColor;
+    paths.v[path.slot].categories = path.categories;
 }
 
 vec4 randomVector(TraceRecord trace, Path path, uint which) {
@@ -64,19 +66,20 @@ vec3 offsetTowards(Surface surface, vec3 direction) {
     return offsetOrigin(surface.position, dot(surface.ng, direction) < 0.0 ? -surface.ng : surface.ng);
 }
 
-// Next event estimation: the light of one emitter, weighted against finding it by BSDF sampling.
+// Next event estimation: the light of one emitter, to be weighted against finding it by BSDF sampling.
 void sampleDirectLight(TraceRecord trace, SceneRecord scene, Path path, Surface surface, vec3 wo, vec4 u) {
     LightSample light;
-    if (!sampleLight(scene, surface.position, u, light)) return;
+    if (!sampleLight(scene, surface.position, path.categories, u, light)) return;
     float bsdfPdf;
     const vec3 f = evalBsdfScaled(surface, wo, light.wi, light.lobeScale, bsdfPdf);
-    const vec3 contribution = path.throughput * f * light.radiance * (lightMisWeight(light, bsdfPdf) / light.pdf);
+    const vec3 contribution = path.throughput * f * light.radiance / light.pdf;
     if (contribution == vec3(0.0)) return;
     const uint i = appendToQueue(trace, QUEUE_SHADOW + push.turn);
     RayRef(trace.shadowRays).v[i] =
         Ray(offsetTowards(surface, light.wi), 0.0, light.wi, light.distance * (1.0 - 1e-4));
     ShadowWorkRef(trace.shadowWork).v[i] =
-        ShadowWork(contribution, path.depth > 0u ? path.slot | SHADOW_INDIRECT : path.slot);
+        ShadowWork(contribution, path.depth > 0u ? path.slot | SHADOW_INDIRECT : path.slot, light.shadow,
+                   lightMisWeight(light, bsdfPdf), 0u);
 }
 
 // What kind of scattering a lobe (LOBE_*) did towards `wi`, for discovery.
@@ -205,6 +208,7 @@ bool scatter(TraceRecord trace, SceneRecord scene, inout Path path, inout Ray ra
     addRadiance(trace, path.slot, path.throughput * surface.emission, path.depth > 1u);
     if (path.depth >= trace.maxDepth) return false;
     disperse(trace, scene, path, surface);
+    path.categories = InstanceRef(scene.instances).v[hit.instance].categories;
     const vec3 wo = -ray.direction;
     sampleDirectLight(trace, scene, path, surface, wo, u);
     return bounce(trace, path, ray, surface, wo, u.w / surface.opacity); // uniform again
@@ -213,9 +217,9 @@ bool scatter(TraceRecord trace, SceneRecord scene, inout Path path, inout Ray ra
 // The light a ray has run into by `distance`, and the sky if it met nothing.
 void collectLight(TraceRecord trace, SceneRecord scene, Path path, Ray ray, float distance, bool miss) {
     const bool cameraRay = path.depth == 0u;
-    vec3 light = lightsAlongRay(scene, ray, distance, cameraRay, path.bsdfPdf);
+    vec3 light = lightsAlongRay(scene, ray, distance, cameraRay, path.bsdfPdf, path.categories);
     if (cameraRay && any(greaterThan(light, vec3(0.0)))) PathRef(trace.paths).v[path.slot].alpha = 1.0;
-    if (miss) light += environmentRadiance(scene, ray.direction, cameraRay, path.bsdfPdf);
+    if (miss) light += environmentRadiance(scene, ray.direction, cameraRay, path.bsdfPdf, path.categories);
     addRadiance(trace, path.slot, path.throughput * light, path.depth > 1u);
 }
 

@@ -1,27 +1,49 @@
-// One step of a shadow ray through surfaces that let light straight through: attenuates by the surface met and goes on
-// behind it, or arrives when there is none.
+// One step of a shadow ray through surfaces: attenuates by the surface met and goes on behind it, or arrives when there
+// is none.
+//
+// Light that was stopped arrives as far as the light's shadows let it through; light that was stopped by an object that
+// casts none of this light's shadows goes on beside the rest. Neither can be found by the BSDF's rays, which such
+// surfaces do stop, so that it counts in full; what nothing stopped has its weight.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "trace/wavefront.glsl"
+#include "light/linking.glsl"
+#include "light/shadow.glsl"
 #include "material/presence.glsl"
+
+// What the surface does to the light. Returns the share that gets through although it was stopped.
+vec3 meetSurface(SceneRecord scene, Hit hit, float opacity, inout TransmitWork transmit) {
+    const uint64_t address = transmit.work.shadow;
+    if (address != 0ul) {
+        const uint set = InstanceRef(scene.instances).v[hit.instance].categories;
+        if (!inCategory(scene, set, ShadowRef(address).v.category)) {
+            transmit.aside += transmit.direct * opacity;
+            transmit.direct *= 1.0 - opacity;
+            return vec3(0.0);
+        }
+    }
+    const float stopped = (transmit.direct + transmit.aside) * opacity;
+    transmit.direct *= 1.0 - opacity;
+    transmit.aside *= 1.0 - opacity;
+    return address == 0ul ? vec3(0.0) : stopped * throughOccluder(ShadowRef(address).v, hit.t);
+}
 
 void main() {
     const TraceRecord trace = TraceRecordRef(push.record).v;
     const uint i = gl_GlobalInvocationID.x;
     if (i >= HeaderRef(trace.headers).v[QUEUE_TRANSMIT + push.turn].count) return;
     const Hit hit = HitRef(trace.transmitHits).v[i];
-    ShadowWork work = ShadowWorkRef(trace.transmitWork[push.turn]).v[i];
-    if (hit.instance == NO_INDEX) {
-        arrive(trace, work);
-        return;
-    }
+    TransmitWork transmit = TransmitWorkRef(trace.transmitWork[push.turn]).v[i];
+    const bool free = hit.instance == NO_INDEX;
+    const SceneRecord scene = SceneRef(trace.scene).v;
+    const vec3 share = free ? vec3(transmit.direct * transmit.work.weight + transmit.aside)
+                            : meetSurface(scene, hit, clamp(evaluatePresence(scene, hit), 0.0, 1.0), transmit);
+    arrive(trace, transmit.work, share);
+    if (free || !(transmit.direct + transmit.aside > 0.0)) return;
     Ray ray = RayRef(trace.transmitRays[push.turn]).v[i];
-    const float opacity = evaluatePresence(SceneRef(trace.scene).v, hit);
-    if (!(opacity < 1.0)) return;
-    work.contribution *= 1.0 - opacity;
     ray.tMin = passedDistance(hit.t);
     const uint other = 1u - push.turn;
     const uint j = appendToQueue(trace, QUEUE_TRANSMIT + other);
     RayRef(trace.transmitRays[other]).v[j] = ray;
-    ShadowWorkRef(trace.transmitWork[other]).v[j] = work;
+    TransmitWorkRef(trace.transmitWork[other]).v[j] = transmit;
 }

@@ -19,7 +19,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PathRef { Pa
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer RayRef { Ray v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer SlotRef { uint v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer HitRef { Hit v[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer ShadowWorkRef { ShadowWork v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer ShadowWorkRef { ShadowWork v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer TransmitWorkRef { TransmitWork v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FilmRef { FilmPixel v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PathSeenRef { SeenPoint v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer VisibilityRef { VisibilityRecord v[]; };
@@ -61,9 +62,9 @@ vec3 pathRadiance(TraceRecord trace, PathState path) {
     return path.radiance + indirect;
 }
 
-// Adds what a shadow ray carried.
-void arrive(TraceRecord trace, ShadowWork work) {
-    addRadiance(trace, work.slot & ~SHADOW_INDIRECT, work.contribution, (work.slot & SHADOW_INDIRECT) != 0u);
+// Adds a share of what a shadow ray carries.
+void arrive(TraceRecord trace, ShadowWork work, vec3 share) {
+    addRadiance(trace, work.slot & ~SHADOW_INDIRECT, work.contribution * share, (work.slot & SHADOW_INDIRECT) != 0u);
 }
 
 // Just behind a surface that was passed through. The origin stays, so that pdfs of lights further along the ray remain

@@ -87,6 +87,37 @@ Rows shaping() {
     };
 }
 
+/// A collection of the rectangle light.
+Edit link(const std::string& collection, const std::string& includes) {
+    const std::string name = "collection:" + collection;
+    return in(lights + "Rect",
+              "uniform bool " + name + ":includeRoot = false\nrel " + name + ":includes = " + includes);
+}
+
+Rows shadows() {
+    const Edit plainOnly = link("lightLink", "</World/Geo/Plain>");
+    return {
+        {"LightRectShadowOff", in(lights + "Rect", "bool shadow:enable = false")},
+        {"LightRectShadowOffByItsNewName", in(lights + "Rect", "bool inputs:shadow:enable = false")},
+        {"LightRectShadowColor", in(lights + "Rect", "color3f shadow:color = (1, 0, 0)")},
+        {"LightRectShadowDistance", in(lights + "Rect", "float shadow:distance = 0.05")},
+        {"LightRectShadowFalloff", in(lights + "Rect", "float shadow:falloff = 4"),
+         in(lights + "Rect", "float shadow:distance = 5")},
+        {"LightRectShadowFalloffGamma", in(lights + "Rect", "float shadow:falloffGamma = 3"),
+         in(lights + "Rect", "float shadow:distance = 5\nfloat shadow:falloff = 5")},
+        {"LightLinked", plainOnly},
+        {"LightLinkedToMore", link("lightLink", "[</World/Geo/Plain>, </World/Inst>]"), plainOnly},
+        {"LightLinkedToOther", link("lightLink", "</World/Inst>"), plainOnly},
+        {"LightLinkedToNothing", link("lightLink", "[]"), plainOnly},
+        {"LightLinkedToAll", in(lights + "Rect", "uniform bool collection:lightLink:includeRoot = true"),
+         plainOnly},
+        {"LightShadowLinked", link("shadowLink", "</World/Inst>")},
+        {"LightLinkedThingMoves", in("/World/Geo/Plain", R"(double3 xformOp:translate = (0.2, 0, 0.1)
+uniform token[] xformOpOrder = ["xformOp:translate"])"),
+         plainOnly},
+    };
+}
+
 Rows presence() {
     return {
         {"LightRemovedFirst", removePrim(lights + "Disk")},
@@ -136,7 +167,7 @@ uniform token[] xformOpOrder = ["xformOp:translate"]
 
 Rows lightRows() {
     Rows rows = attributes();
-    for (const Rows& more : {shaping(), presence()})
+    for (const Rows& more : {shaping(), shadows(), presence()})
         rows.insert(rows.end(), more.begin(), more.end());
     return rows;
 }

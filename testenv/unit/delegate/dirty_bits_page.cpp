@@ -21,7 +21,7 @@ A bit says what to read, not what has changed: values are compared with those of
 last is in the render statistics `hipr:lastChange`, `hipr:changedElements` and `hipr:changes`.
 
 Kinds: added, removed, transform, geometry (points or topology), primvar (any other data of a mesh, and ids), material
-(binding or content), emission, visibility, camera, setting.
+(binding or content), emission, visibility, camera, setting, linking (the collections of lights that it is in).
 )";
 
 const char* kindOf(Target target) {

@@ -55,6 +55,11 @@ template <class T> Edit values(const char* name, T made, T undone) {
     };
 }
 
+/// The collections of lights that something is in.
+inline VtArray<TfToken> categories(bool some) {
+    return some ? VtArray<TfToken>{TfToken("some")} : VtArray<TfToken>();
+}
+
 /// The same change of several instances of one object.
 inline Elements instances(Target target, Change change, std::initializer_list<uint32_t> which) {
     Elements elements;

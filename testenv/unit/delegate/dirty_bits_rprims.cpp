@@ -219,10 +219,18 @@ std::vector<Row> placeRows() {
         {"HdChangeTracker::DirtyPrimID", "the prim id, for the AOV", "Hydra gives out ids anew", setPrimId,
          primvar},
         {"HdChangeTracker::DirtyCategories",
-         "nothing: light linking is not supported, which the light says",
-         "",
-         rprim("/square", Bits::DirtyCategories),
-         {}},
+         "the collections of lights that it is in",
+         "it comes into one",
+         rprim("/square", Bits::DirtyCategories,
+               [](TestScene::Prim& prim, bool make) { prim.categories = categories(make); }),
+         {{Target::Square, Change::Linking}}},
+        {"HdChangeTracker::DirtyCategories", "the same, and those of its instances",
+         "one instance comes into one",
+         [](World& world, bool make) {
+             world.prim("/many").instanceCategories = {{}, categories(make), {}, {}};
+             world.tracker().MarkRprimDirty(SdfPath("/many.square"), Bits::DirtyCategories);
+         },
+         instances(Target::Many, Change::Linking, {1})},
         {"HdChangeTracker::Clean", "nothing; Hydra refuses to mark it", "", [](World&, bool) {}, {}},
         {"HdChangeTracker::Varying",
          "nothing: Hydra's own note that the prim changes often",

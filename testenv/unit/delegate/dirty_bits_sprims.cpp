@@ -92,16 +92,23 @@ Section lightSection() {
              {{Target::Lamp, Change::Visibility}}},
             {"HdLight::DirtyShadowParams", "all parameters", "it becomes larger",
              light(HdLight::DirtyShadowParams, param("radius", 1.f, 0.5f)), emission},
-            {"HdLight::DirtyShadowParams",
-             "all parameters; shadows cannot be switched off, which is said once",
-             "`shadow:enable` is switched off",
-             light(HdLight::DirtyShadowParams, param("shadow:enable", false, true)),
-             {}},
+            {"HdLight::DirtyShadowParams", "the same", "`shadow:enable` is switched off",
+             light(HdLight::DirtyShadowParams, param("shadow:enable", false, true)), emission},
             {"HdLight::DirtyCollection",
-             "all parameters; light linking is not supported, which is said once",
+             "all parameters; where the light is linked, before 24.08, all objects read their categories",
              "`lightLink` names a collection",
-             light(HdLight::DirtyCollection, param("lightLink", TfToken("some"), TfToken())),
-             {}},
+             light(HdLight::DirtyCollection, param("lightLink", TfToken("some"), TfToken())), emission},
+            {"HdLight::DirtyCollection", "the same", "a square comes into the collection of a linked light",
+             [](World& world, bool make) {
+                 world.prim("/lamp").params[TfToken("shadowLink")] = VtValue(TfToken("some"));
+                 world.prim("/square").categories = categories(make);
+                 world.tracker().MarkSprimDirty(SdfPath("/lamp"), HdLight::DirtyCollection);
+                 if (PXR_VERSION >= 2408) {
+                     world.tracker().MarkRprimDirty(SdfPath("/square"), HdChangeTracker::DirtyCategories);
+                 }
+             },
+             Elements{{Target::Lamp, Change::Emission}, {Target::Square, Change::Linking}},
+             Elements{{Target::Square, Change::Linking}}},
             {"HdLight::AllDirty", "everything; only what differs is a change", "it moves",
              light(HdLight::AllDirty, move), moved},
             unread("HdLight::Clean", "nothing; Hydra refuses to mark it", [](World&, bool) {}),

@@ -28,9 +28,11 @@ public:
         TfToken renderTag = HdRenderTagTokens->geometry;
         SdfPath material, instancer;
         std::map<TfToken, Primvar> primvars;
-        std::map<TfToken, VtValue> params;     ///< of a light, camera or computation
-        std::map<SdfPath, VtIntArray> indices; ///< of an instancer, by prototype
-        VtValue resource;                      ///< of a material
+        VtArray<TfToken> categories;                      ///< collections of lights that it is in
+        std::vector<VtArray<TfToken>> instanceCategories; ///< of an instancer
+        std::map<TfToken, VtValue> params;                ///< of a light, camera or computation
+        std::map<SdfPath, VtIntArray> indices;            ///< of an instancer, by prototype
+        VtValue resource;                                 ///< of a material
         PxOsdSubdivTags tags;
         int refineLevel = 0;
         HdReprSelector repr;
@@ -96,6 +98,10 @@ public:
     VtValue Get(SdfPath const& id, TfToken const& key) override;
     HdPrimvarDescriptorVector GetPrimvarDescriptors(SdfPath const& id,
                                                     HdInterpolation interpolation) override;
+    VtArray<TfToken> GetCategories(SdfPath const& id) override { return prim(id).categories; }
+    std::vector<VtArray<TfToken>> GetInstanceCategories(SdfPath const& id) override {
+        return prim(id).instanceCategories;
+    }
     VtIntArray GetInstanceIndices(SdfPath const& id, SdfPath const& prototype) override;
     VtValue GetLightParamValue(SdfPath const& id, TfToken const& name) override;
     VtValue GetCameraParamValue(SdfPath const& id, TfToken const& name) override { return param(id, name); }

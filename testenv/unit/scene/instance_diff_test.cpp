@@ -54,6 +54,17 @@ TEST(InstanceDiff, NamesWhatMoved) {
     EXPECT_EQ(changes(at({1, 2}), at({3, 4})), (Changes{{0, Change::Transform}, {1, Change::Transform}}));
 }
 
+TEST(InstanceDiff, NamesWhoseCategoriesChanged) {
+    InstancesDesc plain = at({1, 2, 3}), linked = plain, more = plain;
+    linked.categories = {{}, {"lit"}};
+    more.categories = {{}, {"lit"}, {"lit", "other"}};
+    EXPECT_EQ(changes(plain, linked), (Changes{{1, Change::Linking}}));
+    EXPECT_EQ(changes(linked, plain), (Changes{{1, Change::Linking}}));
+    EXPECT_EQ(changes(linked, more), (Changes{{2, Change::Linking}}));
+    plain.categories = {{}, {}, {}};
+    EXPECT_EQ(changes(at({1, 2, 3}), plain), Changes());
+}
+
 TEST(InstanceDiff, NamesWhosePrimvarsChanged) {
     EXPECT_EQ(changes(at({1, 2, 3}, {4, 5, 6}), at({1, 2, 3}, {4, 5, 0})), (Changes{{2, Change::Primvar}}));
     EXPECT_EQ(changes(at({1, 2, 3}, {4, 5, 6}), at({1, 0, 3}, {4, 0, 6})),

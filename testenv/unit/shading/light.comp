@@ -28,8 +28,8 @@ layout(push_constant, scalar) uniform Push {
 } push;
 
 vec3 met(SceneRecord scene, vec3 direction, bool cameraRay, float bsdfPdf) {
-    return lightsAlongRay(scene, Ray(push.point, 0.0, direction, 1e30), 1e30, cameraRay, bsdfPdf) +
-           environmentRadiance(scene, direction, cameraRay, bsdfPdf);
+    return lightsAlongRay(scene, Ray(push.point, 0.0, direction, 1e30), 1e30, cameraRay, bsdfPdf, 0u) +
+           environmentRadiance(scene, direction, cameraRay, bsdfPdf, 0u);
 }
 
 void main() {
@@ -40,7 +40,7 @@ void main() {
     result.byLight = result.combined = vec3(0.0);
     result.pdf = result.atSample = 0.0;
     LightSample ls;
-    if (sampleLight(scene, push.point, sobol4(uvec2(3, 1), i, 0u, 0u), ls)) {
+    if (sampleLight(scene, push.point, 0u, sobol4(uvec2(3, 1), i, 0u, 0u), ls)) {
         const float cosine = max(0.0, dot(ls.wi, push.normal));
         result.wi = ls.wi;
         result.pdf = ls.pdf;

@@ -31,7 +31,7 @@ LitScene::LitScene(const std::vector<LightDesc>& lights,
               return std::vector<unsigned char>();
           },
           ColorManager::create(testDevice().messages())),
-      _lights(testDevice(), _textures) {
+      _categories(testDevice()), _lights(testDevice(), _textures, _categories) {
     uint32_t id = 0;
     for (const LightDesc& light : lights)
         _lights.set(LightId(++id), light);
@@ -39,6 +39,8 @@ LitScene::LitScene(const std::vector<LightDesc>& lights,
     _lights.commit(glm::vec3(-1.f), glm::vec3(1.f));
     _textures.describe(_scene);
     _lights.describe(_scene);
+    _categories.commit();
+    _categories.describe(_scene);
     _sceneBuffer = testDevice().createFrom(&_scene, 1, "test");
 }
 

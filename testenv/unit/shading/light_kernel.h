@@ -35,6 +35,7 @@ public:
 
 private:
     TextureStore _textures;
+    CategoryTable _categories;
     LightTable _lights;
     gpu::SceneRecord _scene{};
     Buffer _sceneBuffer;

@@ -90,7 +90,8 @@ TEST(LightUnits, BlackbodyHasKnownChromaticities) {
 
 TEST(LightTable, BrokenLightsAreOffAndToldOnce) {
     TextureStore textures(testDevice(), serve({}), ColorManager::create({}));
-    LightTable table(testDevice(), textures);
+    CategoryTable categories(testDevice());
+    LightTable table(testDevice(), textures, categories);
     const auto expectOff = [&](const char* name, auto change, bool told) {
         LightDesc desc;
         desc.name = name;
@@ -129,7 +130,8 @@ TEST(LightTable, BrokenLightsAreOffAndToldOnce) {
 
 TEST(LightTable, AreaLightsComeFirstAndEditsShow) {
     TextureStore textures(testDevice(), serve({}), ColorManager::create({}));
-    LightTable table(testDevice(), textures);
+    CategoryTable categories(testDevice());
+    LightTable table(testDevice(), textures, categories);
     LightDesc dome, sphere;
     dome.kind = LightKind::Dome;
     table.set(LightId(1), dome);
