@@ -1,6 +1,7 @@
 #include "plugin/hdHipr/instancer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "plugin/hdHipr/convert.h"
 #include "plugin/hdHipr/messages.h"
@@ -122,9 +123,25 @@ std::vector<float> repeated(std::vector<float> const& values, uint32_t component
     return out;
 }
 
+std::vector<std::string> toNames(VtArray<TfToken> const& categories) {
+    std::vector<std::string> names;
+    for (size_t i = 0; i < categories.size(); ++i) {
+        names.push_back(categories.cdata()[i].GetString());
+    }
+    std::sort(names.begin(), names.end()); // UsdImaging's order depends on addresses
+    return names;
+}
+
 bool anyLinked(std::vector<VtArray<TfToken>> const& categories) {
     return std::any_of(categories.begin(), categories.end(),
                        [](VtArray<TfToken> const& names) { return !names.empty(); });
+}
+
+/// At any level from this instancer up; empty: there is none.
+bool instancesLinked(HdSceneDelegate& delegate, SdfPath const& instancerId) {
+    HdInstancer* instancer = delegate.GetRenderIndex().GetInstancer(instancerId);
+    return instancer && (anyLinked(delegate.GetInstanceCategories(instancerId)) ||
+                         instancesLinked(delegate, instancer->GetParentId()));
 }
 
 /// Every outer instance's names with every inner one's; empty lists stand for no names.
@@ -274,19 +291,14 @@ HdHiprInstancer::Instances HdHiprInstancer::instances(SdfPath const& prototypeId
     return all;
 }
 
-std::vector<std::string> hdhipr::toNames(VtArray<TfToken> const& categories) {
-    std::vector<std::string> names;
-    for (size_t i = 0; i < categories.size(); ++i) {
-        names.push_back(categories.cdata()[i].GetString());
+bool LinkState::sync(HdSceneDelegate& delegate, SdfPath const& id, SdfPath const& instancerId,
+                     HdDirtyBits bits) {
+    if (!(bits & HdChangeTracker::DirtyCategories)) {
+        return false;
     }
-    std::sort(names.begin(), names.end()); // UsdImaging's order depends on addresses
-    return names;
-}
-
-bool hdhipr::instancesLinked(HdSceneDelegate& delegate, SdfPath const& instancerId) {
-    HdInstancer* instancer = delegate.GetRenderIndex().GetInstancer(instancerId);
-    return instancer && (anyLinked(delegate.GetInstanceCategories(instancerId)) ||
-                         instancesLinked(delegate, instancer->GetParentId()));
+    _names = toNames(delegate.GetCategories(id));
+    const bool were = std::exchange(_instancesLinked, instancesLinked(delegate, instancerId));
+    return were || _instancesLinked;
 }
 
 hipr::InstancesDesc hdhipr::readInstances(HdSceneDelegate& delegate, SdfPath const& id,

@@ -41,11 +41,18 @@ private:
 
 namespace hdhipr {
 
-/// The collections of lights that something is in.
-std::vector<std::string> toNames(VtArray<TfToken> const& categories);
+/// The collections of lights that an rprim and its instances are in.
+class LinkState {
+public:
+    /// Reads the rprim's where DirtyCategories says so. Returns whether those of its instances have to be
+    /// read, too.
+    bool sync(HdSceneDelegate& delegate, SdfPath const& id, SdfPath const& instancerId, HdDirtyBits bits);
+    std::vector<std::string> const& names() const { return _names; }
 
-/// Whether instances are in collections of lights, at any level from this instancer up; empty: there is none.
-bool instancesLinked(HdSceneDelegate& delegate, SdfPath const& instancerId);
+private:
+    std::vector<std::string> _names;
+    bool _instancesLinked = false;
+};
 
 /// Where an rprim stands: once, or as its instancer says. Without the instancer that it names it stands
 /// nowhere, which is told.

@@ -29,6 +29,22 @@ std::optional<hipr::LightKind> lightKind(TfToken const& type) {
     return found == kinds.end() ? std::nullopt : std::optional(found->second);
 }
 
+hipr::DomeFormat domeFormat(SdfPath const& id, TfToken const& format) {
+    if (format == "mirroredBall") {
+        return hipr::DomeFormat::MirroredBall;
+    }
+    if (format == "angular") {
+        return hipr::DomeFormat::Angular;
+    }
+    if (format == "cubeMapVerticalCross") {
+        return hipr::DomeFormat::CubeMapVerticalCross;
+    }
+    if (format != "automatic" && format != "latlong") {
+        warnOnce(id.GetString(), "texture:format '" + format.GetString() + "' is unknown; taken as latlong");
+    }
+    return hipr::DomeFormat::LatLong;
+}
+
 /// Reads parameters of one light; an absent one, or one of a type that cannot be cast, keeps the default.
 struct Params {
     HdSceneDelegate* delegate;
@@ -122,6 +138,9 @@ void HdHiprLight::syncParams(HdSceneDelegate* delegate) {
     if (_desc.kind == hipr::LightKind::Dome || _desc.kind == hipr::LightKind::Rect) {
         _desc.texture = assetPath(lightParam(delegate, GetId(), TfToken("texture:file")));
     }
+    _desc.domeFormat = domeFormat(GetId(), params.get("texture:format", TfToken("automatic")));
+    _desc.thin = (_desc.kind == hipr::LightKind::Sphere && params.get("treatAsPoint", false)) ||
+                 (_desc.kind == hipr::LightKind::Cylinder && params.get("treatAsLine", false));
     _desc.shaping = readShaping(delegate);
     _desc.shadow = readShadow(delegate);
 }
@@ -165,22 +184,15 @@ hipr::LightShaping HdHiprLight::readShaping(HdSceneDelegate* delegate) const {
 }
 
 void HdHiprLight::reportUnsupported(HdSceneDelegate* delegate) const {
-    const Params params{delegate, GetId()};
     const auto ignored = [&](const char* what) {
         warnOnce(GetId().GetString(), std::string(what) + " is not supported and has no effect");
     };
     if (_desc.kind == hipr::LightKind::Dome && !_desc.shaping.iesFile.empty()) {
         ignored("an IES profile on a dome light (shaping:ies:file)");
     }
-    if (params.get("treatAsPoint", false)) {
-        ignored("treatAsPoint");
-    }
-    if (params.get("treatAsLine", false)) {
-        ignored("treatAsLine");
-    }
-    const TfToken format = params.get("texture:format", TfToken("automatic"));
-    if (_desc.kind == hipr::LightKind::Dome && format != "automatic" && format != "latlong") {
-        ignored("a dome texture that is not latitude-longitude (texture:format)");
+    const VtValue portals = delegate->GetLightParamValue(GetId(), TfToken("portals"));
+    if (portals.IsHolding<SdfPathVector>() && !portals.UncheckedGet<SdfPathVector>().empty()) {
+        ignored("sampling through portals");
     }
 }
 

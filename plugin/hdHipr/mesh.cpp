@@ -106,11 +106,7 @@ void HdHiprMesh::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdD
     if (rebuild != Rebuild::None) {
         sendGeometry(rebuild, param);
     }
-    bool relinked = false;
-    if (bits & HdChangeTracker::DirtyCategories) {
-        _categories = toNames(delegate->GetCategories(GetId()));
-        relinked = _instancesLinked || instancesLinked(*delegate, GetInstancerId());
-    }
+    const bool relinked = _links.sync(*delegate, GetId(), GetInstancerId(), bits);
     if (bits & objectBits) {
         sendObject(delegate, param);
     }
@@ -312,7 +308,7 @@ void HdHiprMesh::sendObject(HdSceneDelegate* delegate, HdHiprRenderParam& param)
     state.desc.geometry = _geometry;
     state.desc.visible = IsVisible();
     state.desc.primId = GetPrimId();
-    state.desc.categories = _categories;
+    state.desc.categories = _links.names();
     const hipr::MaterialId own = param.materialId(GetMaterialId());
     state.desc.materials.push_back(own);
     for (SdfPath const& path : _subsetMaterials) {
@@ -328,9 +324,7 @@ void HdHiprMesh::renderTagChanged(HdSceneDelegate* delegate, HdRenderParam* rend
 }
 
 void HdHiprMesh::sendInstances(HdSceneDelegate* delegate, HdHiprRenderParam& param) {
-    hipr::InstancesDesc instances = readInstances(*delegate, GetId(), GetInstancerId());
-    _instancesLinked = !instances.categories.empty();
-    param.edit().setInstances(_object, std::move(instances));
+    param.edit().setInstances(_object, readInstances(*delegate, GetId(), GetInstancerId()));
 }
 
 PXR_NAMESPACE_CLOSE_SCOPE

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "plugin/hdHipr/compat.h"
+#include "plugin/hdHipr/instancer.h"
 #include "plugin/hdHipr/meshTopology.h"
 #include "plugin/hdHipr/primvars.h"
 #include "renderer/api/scene.h"
@@ -56,8 +57,7 @@ private:
     hdhipr::MeshStyle _style;
     bool _computed = false; ///< some primvars are computed
     SdfPathVector _subsetMaterials;
-    std::vector<std::string> _categories; ///< collections of lights that it is in
-    bool _instancesLinked = false;        ///< some instances are in others
+    hdhipr::LinkState _links;
     std::shared_ptr<const hipr::TriangleMesh> _mesh;
 };
 

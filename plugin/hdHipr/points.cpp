@@ -159,6 +159,9 @@ hipr::InstancesDesc HdHiprPoints::instances(HdSceneDelegate& delegate) {
             desc.transforms.push_back(transform * placement);
             desc.instanceIds.push_back(int(i));
         }
+        if (!placed.categories.empty()) {
+            desc.categories.insert(desc.categories.end(), points, placed.categories[i]);
+        }
     }
     for (hipr::Primvar const& primvar : _perPoint) {
         if (points > 0) {

@@ -49,11 +49,12 @@ public:
         if (bits & shapeBits) {
             param.edit().setGeometry(_geometry, readShape(*delegate));
         }
+        const bool relinked = _links.sync(*delegate, this->GetId(), this->GetInstancerId(), bits);
         if (bits & objectBits) {
             sendObject(delegate, param);
         }
         const HdDirtyBits placing = shapePlacesInstances() ? instanceBits | shapeBits : instanceBits;
-        if (bits & placing) {
+        if (relinked || (bits & placing)) {
             param.edit().setInstances(_object, instances(*delegate));
         }
         // Last: UsdImaging hands out the points once, and asking for samples of them counts.
@@ -124,9 +125,9 @@ protected:
     }
 
 private:
-    static constexpr HdDirtyBits objectBits = HdChangeTracker::DirtyVisibility |
-                                              HdChangeTracker::DirtyMaterialId |
-                                              HdChangeTracker::DirtyPrimID | HdChangeTracker::DirtyRenderTag;
+    static constexpr HdDirtyBits objectBits =
+        HdChangeTracker::DirtyVisibility | HdChangeTracker::DirtyMaterialId | HdChangeTracker::DirtyPrimID |
+        HdChangeTracker::DirtyRenderTag | HdChangeTracker::DirtyCategories;
     static constexpr HdDirtyBits instanceBits = HdChangeTracker::DirtyTransform |
                                                 HdChangeTracker::DirtyInstancer |
                                                 HdChangeTracker::DirtyInstanceIndex;
@@ -142,6 +143,7 @@ private:
         state.desc.geometry = _geometry;
         state.desc.visible = this->IsVisible();
         state.desc.primId = this->GetPrimId();
+        state.desc.categories = _links.names();
         state.desc.materials = {param.materialId(this->GetMaterialId())};
         param.setObject(_object, state);
         _synced = true;
@@ -150,6 +152,7 @@ private:
     hipr::GeometryId _geometry;
     hipr::ObjectId _object;
     DescriptorChoice _descriptorChoice;
+    LinkState _links;
     bool _synced = false;
 };
 

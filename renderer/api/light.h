@@ -11,6 +11,13 @@ namespace hipr {
 
 enum class LightKind : uint32_t { Dome, Distant, Rect, Sphere, Disk, Cylinder };
 
+/// What a dome's picture is of. LatLong: OpenEXR's latitude-longitude map, its centre towards local +Z.
+/// MirroredBall: the environment in a mirror ball, seen from local +Z, which its centre reflects, x to the
+/// right and y up. Angular: the same with the angle off +Z growing evenly from the centre to the rim.
+/// CubeMapVerticalCross: faces of 90 degrees seen from inside, three wide and four high; the middle one of
+/// the second row shows +Z, the one left of it +X, above +Y, below -Y and, upside down at the bottom, -Z.
+enum class DomeFormat : uint32_t { LatLong, MirroredBall, Angular, CubeMapVerticalCross };
+
 /// How a light's radiance depends on the direction it leaves in (UsdLuxShapingAPI). Angles are from the
 /// light's axis, local -Z, in world space. Lights without an axis, domes, ignore it.
 struct LightShaping {
@@ -58,8 +65,10 @@ struct LightDesc {
     float length = 1.f;                  ///< cylinder
     float angle = 0.53f;                 ///< distant: full angle in degrees
     float diffuse = 1.f, specular = 1.f; ///< multipliers
-    bool visible = true;                 ///< false: the light is off
+    bool thin = false;   ///< sphere: a point, cylinder: a line of the same power, which no ray meets
+    bool visible = true; ///< false: the light is off
     std::string texture; ///< dome: latitude-longitude image; rect: image on the emitter. May be empty
+    DomeFormat domeFormat = DomeFormat::LatLong;
     LightShaping shaping;
     LightShadow shadow;
     std::string lightLink;  ///< the category (ObjectDesc::categories) whose objects are lit; empty: all
@@ -67,7 +76,7 @@ struct LightDesc {
     auto members() const {
         return std::tie(name, kind, transform, intensity, exposure, color, enableColorTemperature,
                         colorTemperature, normalize, radius, width, height, length, angle, diffuse, specular,
-                        visible, texture, shaping, shadow, lightLink, shadowLink);
+                        visible, texture, shaping, shadow, lightLink, shadowLink, thin, domeFormat);
     }
     bool operator==(const LightDesc& o) const { return members() == o.members(); }
 };

@@ -195,6 +195,7 @@ void dumpLight(SceneDump& dump, const LightDesc& light, bool emits) {
     out.fact("focus", shaping.focus, "tint", shaping.focusTint);
     out.fact("cone", shaping.coneAngle, "softness", shaping.coneSoftness);
     out.fact("ies", shaping.iesFile, "angleScale", shaping.iesAngleScale, "normalize", shaping.iesNormalize);
+    out.fact("thin", light.thin, "domeFormat", uint32_t(light.domeFormat));
     const LightShadow& shadow = light.shadow;
     out.fact("shadow", shadow.enable, shadow.color, "distance", shadow.distance, "falloff", shadow.falloff,
              shadow.falloffGamma);

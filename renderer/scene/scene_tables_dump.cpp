@@ -23,7 +23,8 @@ void GeometryTable::dump(SceneDump& dump) const {
         dumpMesh(dump, *entry.mesh);
 }
 
-// The primId is left out: hosts number prims in the order in which they came.
+// The primId is left out: hosts number prims in the order in which they came. So are categories: objects may
+// be in some that no light names any more.
 void ObjectTable::dump(SceneDump& dump, const GeometryTable& geometries, const SplatTable& splats,
                        const MaterialNames& nameOf) const {
     for (const auto& [id, entry] : _entries) {
@@ -36,8 +37,6 @@ void ObjectTable::dump(SceneDump& dump, const GeometryTable& geometries, const S
         out.fact("geometry", geometry ? geometry->mesh->name : std::string());
         const SplatSet* set = splats.find(entry.desc->splats);
         out.fact("splats", set ? set->cloud->name : std::string());
-        for (const std::string& category : entry.desc->categories)
-            out.fact("category", category);
         for (uint32_t slot = 0; slot < entry.desc->materials.size(); ++slot)
             out.fact("slot", slot, "bound", nameOf.byId(entry.desc->materials[slot]));
         for (uint32_t slot = 0; slot < entry.placed.materialCount; ++slot)
@@ -54,9 +53,6 @@ void ObjectTable::dumpInstances(SceneDump::Element& out, const Entry& entry) con
     dumpPrimvars(out, "instance", instances.primvars);
     for (size_t i = 0; i < instances.transforms.size(); ++i) {
         out.fact("instance", i, "transform", instances.transforms[i]);
-        for (const std::string& category :
-             i < instances.categories.size() ? instances.categories[i] : std::vector<std::string>())
-            out.fact("instance", i, "category", category);
         out.fact("instance", i, "id", i < instances.instanceIds.size() ? instances.instanceIds[i] : int(i));
     }
     for (uint32_t i = 0; i < entry.placed.count; ++i) {

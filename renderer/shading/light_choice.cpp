@@ -1,15 +1,20 @@
 #include "renderer/shading/light_choice.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hipr {
+
+double roundedPower(double power) {
+    return std::exp2(std::round(std::log2(std::min(std::max(power, 1e-30), 1e30))));
+}
 
 std::vector<double> lightChances(const std::vector<double>& powers) {
     constexpr double Uniform = 0.1;
     std::vector<double> chances;
     double total = 0.0;
     for (const double power : powers) {
-        chances.push_back(power > 0.0 ? std::exp2(std::round(std::log2(power))) : 0.0);
+        chances.push_back(power > 0.0 ? roundedPower(power) : 0.0);
         total += chances.back();
     }
     for (double& chance : chances)

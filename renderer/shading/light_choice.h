@@ -6,6 +6,9 @@
 
 namespace hipr {
 
+/// A power as the choice of lights sees it: the nearest power of two, never 0.
+double roundedPower(double power);
+
 /// The chance of each light, from its power; they sum to 1.
 ///
 /// Powers count rounded to a power of two, so that an edit of a light, or of the size of the scene, mostly

@@ -123,6 +123,18 @@ glm::dvec3 radianceOf(const LightDesc& desc) {
     return radiance;
 }
 
+/// What is left of the radius: how much power the light has. Normalised, it does not matter.
+void makeThin(const LightDesc& desc, gpu::LightRecord& record) {
+    const bool line = desc.kind == LightKind::Cylinder;
+    record.kind = gpu::LIGHT_THIN;
+    record.size = {0.f, line ? desc.length : 0.f};
+    record.radiance *= record.area / (line ? float(Pi) : 4.f);
+}
+
+bool isThin(const LightDesc& desc) {
+    return desc.thin && (desc.kind == LightKind::Sphere || desc.kind == LightKind::Cylinder);
+}
+
 void setShape(const LightDesc& desc, gpu::LightRecord& record) {
     switch (desc.kind) {
     case LightKind::Rect:
@@ -155,8 +167,10 @@ double lightSizeFactor(const LightDesc& desc) {
     return Pi * (half <= 0.5 * Pi ? sine * sine : 2.0 - sine * sine);
 }
 
-bool describeLight(const LightDesc& desc, gpu::LightRecord& record, std::string& problem) {
+bool describeLight(const LightDesc& asked, gpu::LightRecord& record, std::string& problem) {
     problem.clear();
+    LightDesc desc = asked;
+    if (isThin(desc) && desc.normalize && desc.radius == 0.f) desc.radius = 1.f; // any, see makeThin()
     if (!desc.visible) return false;
     if (!finiteNumbers(desc)) {
         problem = "a value is not finite; the light is off";
@@ -181,6 +195,7 @@ bool describeLight(const LightDesc& desc, gpu::LightRecord& record, std::string&
     record.texture = gpu::NO_INDEX;
     record.diffuse = std::max(desc.diffuse, 0.f);
     record.specular = std::max(desc.specular, 0.f);
+    if (isThin(desc)) makeThin(desc, record);
     if (!isFinite(glm::mat3(record.radiance, glm::vec3(record.area, 0.f, 0.f), glm::vec3(0.f)))) {
         problem = "its radiance or area exceeds single precision; the light is off";
         return false;
@@ -209,6 +224,7 @@ double lightPower(const gpu::LightRecord& record, const glm::vec3& pictureMean, 
     if (record.kind == gpu::LIGHT_DOME) return radiance * 4.0 * Pi * disk;
     if (record.kind == gpu::LIGHT_DISTANT)
         return radiance * (record.area > 0.f ? double(record.area) : 1.0) * disk;
+    if (record.kind == gpu::LIGHT_THIN) return radiance * Pi * (record.size.y > 0.f ? Pi : 4.0);
     return radiance * Pi * record.area;
 }
 

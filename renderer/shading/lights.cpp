@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,10 +11,15 @@
 #include "renderer/shading/light_choice.h"
 #include "renderer/shading/light_shape.h"
 #include "renderer/shading/light_shaping.h"
+#include "renderer/shading/light_tree.h"
 
 namespace hipr {
 
 using gpu::LightRecord;
+
+/// Up to so many lights are chosen by power, which an edit of one of them disturbs least (see
+/// light_choice.h).
+constexpr size_t FewLights = 16;
 
 struct LightTable::Impl {
     struct Light {
@@ -30,6 +36,14 @@ struct LightTable::Impl {
         Buffer table;
     };
 
+    /// What rebuild() fills: lights in the order of the table, and what some have beside.
+    struct Tables {
+        std::vector<LightRecord> lights;
+        std::vector<double> powers;
+        std::vector<gpu::ShapingRecord> shapings;
+        std::vector<gpu::ShadowRecord> shadows;
+    };
+
     Impl(Device& device, TextureStore& textures, CategoryTable& categories)
         : device(device), textures(textures), categories(categories), profiles(device, textures.assets()) {}
 
@@ -42,21 +56,26 @@ struct LightTable::Impl {
     bool changed = true;
     uint32_t textureVersion = 0;
     double sceneRadius = -1.0;
-    uint32_t areaLights = 0, infiniteLights = 0;
+    uint32_t areaLights = 0, thinLights = 0, infiniteLights = 0; ///< in this order in the table
     Buffer records, cumulative, shapings, shadows;
+    Buffer nodes;
+    uint32_t nodeCount = 0;
+    float treeChance = 0.f;
     bool hasShadows = false;
 
     void forget(LightId id);
     const Picture& picture(uint32_t texture);
     void dropPictures();
     std::vector<Light*> inOrder();
+    uint32_t& groupOf(const LightRecord& record);
     bool bindTexture(Light& light, LightRecord& record, glm::vec3& mean);
     double shape(const Light& light, LightRecord& record, std::vector<gpu::ShapingRecord>& table);
     template <class Record>
     void uploadParts(const std::vector<Record>& parts, uint64_t LightRecord::*address,
                      std::vector<LightRecord>& table, Buffer& buffer);
     void rebuild();
-    void upload(std::vector<LightRecord>& table, const std::vector<double>& chances);
+    void growTree(Tables& tables);
+    std::vector<float> spreadChances(Tables& tables);
 };
 
 void LightTable::Impl::forget(LightId id) {
@@ -99,6 +118,12 @@ std::vector<LightTable::Impl::Light*> LightTable::Impl::inOrder() {
     return order;
 }
 
+/// The number of lights of this one's group.
+uint32_t& LightTable::Impl::groupOf(const LightRecord& record) {
+    if (record.kind == gpu::LIGHT_THIN) return thinLights;
+    return record.kind == gpu::LIGHT_DOME || record.kind == gpu::LIGHT_DISTANT ? infiniteLights : areaLights;
+}
+
 /// Points the record at its texture. Returns false when the picture is black.
 bool LightTable::Impl::bindTexture(Light& light, LightRecord& record, glm::vec3& mean) {
     if (!light.texture) return true;
@@ -137,39 +162,68 @@ void LightTable::Impl::uploadParts(const std::vector<Record>& parts, uint64_t Li
 }
 
 void LightTable::Impl::rebuild() {
-    std::vector<LightRecord> table;
-    std::vector<gpu::ShadowRecord> shadowTable;
-    std::vector<gpu::ShapingRecord> shapingTable;
-    std::vector<double> powers;
-    areaLights = infiniteLights = 0;
+    Tables tables;
+    areaLights = thinLights = infiniteLights = 0;
     const std::vector<Light*> order = inOrder();
-    for (const bool infinite : {false, true})
+    for (uint32_t* count : {&areaLights, &thinLights, &infiniteLights})
         for (Light* light : order) {
-            const bool isInfinite =
-                light->record.kind == gpu::LIGHT_DOME || light->record.kind == gpu::LIGHT_DISTANT;
             glm::vec3 mean(1.f);
             LightRecord record = light->record;
-            if (isInfinite != infinite || !bindTexture(*light, record, mean)) continue;
-            const double share = shape(*light, record, shapingTable);
+            if (&groupOf(record) != count || !bindTexture(*light, record, mean)) continue;
+            const double share = shape(*light, record, tables.shapings);
             if (!(share > 0.0)) continue;
-            if (light->shadow) shadowTable.push_back(*light->shadow), record.shadow = shadowTable.size();
-            table.push_back(record);
-            powers.push_back(share * lightPower(record, mean, sceneRadius));
-            ++(infinite ? infiniteLights : areaLights);
+            if (light->shadow)
+                tables.shadows.push_back(*light->shadow), record.shadow = tables.shadows.size();
+            tables.lights.push_back(record);
+            tables.powers.push_back(share * lightPower(record, mean, sceneRadius));
+            ++*count;
         }
     profiles.dropUnused();
-    uploadParts(shapingTable, &LightRecord::shaping, table, shapings);
-    uploadParts(shadowTable, &LightRecord::shadow, table, shadows);
-    hasShadows = !shadowTable.empty();
-    upload(table, lightChances(powers));
+    growTree(tables);
+    const std::vector<float> sums = spreadChances(tables);
+    uploadParts(tables.shapings, &LightRecord::shaping, tables.lights, shapings);
+    uploadParts(tables.shadows, &LightRecord::shadow, tables.lights, shadows);
+    hasShadows = !tables.shadows.empty();
+    records = device.createFrom(tables.lights.data(), tables.lights.size(), "light tables");
+    cumulative = device.createFrom(sums.data(), sums.size(), "light tables");
 }
 
-void LightTable::Impl::upload(std::vector<LightRecord>& table, const std::vector<double>& chances) {
-    for (size_t i = 0; i < table.size(); ++i)
-        table[i].selectPdf = float(chances[i]);
-    const std::vector<float> sums = cumulativeChances(chances);
-    records = device.createFrom(table.data(), table.size(), "light tables");
-    cumulative = device.createFrom(sums.data(), sums.size(), "light tables");
+/// Puts area and thin lights into the tree.
+void LightTable::Impl::growTree(Tables& tables) {
+    std::vector<LightBounds> bounds;
+    for (size_t i = 0; i < areaLights + thinLights; ++i) {
+        const LightRecord& record = tables.lights[i];
+        const double cone = record.shaping ? double(tables.shapings[record.shaping - 1].coneAngle) : 4.0;
+        bounds.push_back(boundsOf(record, cone, roundedPower(tables.powers[i])));
+    }
+    std::vector<uint32_t> leaves;
+    const std::vector<gpu::LightNode> tree = buildLightTree(bounds, leaves);
+    for (LightRecord& record : tables.lights)
+        record.leaf = gpu::NO_INDEX;
+    for (size_t i = 0; i < leaves.size(); ++i)
+        tables.lights[i].leaf = leaves[i];
+    nodes = device.createFrom(tree.data(), tree.size(), "light tables");
+    nodeCount = uint32_t(tree.size());
+}
+
+/// Few lights are chosen by their power alone, many by the tree, which is one choice beside the infinite
+/// lights. Returns the sums of chances.
+std::vector<float> LightTable::Impl::spreadChances(Tables& tables) {
+    const size_t inTree = areaLights + thinLights;
+    const bool byTree = inTree > FewLights;
+    const auto infinite = tables.powers.begin() + long(inTree);
+    std::vector<double> choices = tables.powers;
+    if (byTree) {
+        choices.assign(infinite, tables.powers.end());
+        choices.insert(choices.begin(), std::accumulate(tables.powers.begin(), infinite, 0.0));
+    }
+    const std::vector<double> chances = lightChances(choices);
+    std::vector<float> sums = cumulativeChances(chances);
+    treeChance = byTree ? float(chances[0]) : 0.f;
+    if (byTree) sums.insert(sums.begin(), inTree - 1, treeChance);
+    for (size_t i = 0; i < tables.lights.size(); ++i)
+        tables.lights[i].selectPdf = float(chances[!byTree ? i : i < inTree ? 0 : i - inTree + 1]);
+    return sums;
 }
 
 LightTable::LightTable(Device& device, TextureStore& textures, CategoryTable& categories)
@@ -187,9 +241,10 @@ void LightTable::set(LightId id, const LightDesc& desc) {
         _impl->device.messages()(Severity::Warning, desc.name, problem);
     const bool takesTexture = desc.kind == LightKind::Dome || desc.kind == LightKind::Rect;
     const WrapMode wrapS = desc.kind == LightKind::Dome ? WrapMode::Repeat : WrapMode::Clamp;
+    const DomeFormat format = desc.kind == LightKind::Dome ? desc.domeFormat : DomeFormat::LatLong;
     if (emits && takesTexture && !desc.texture.empty())
         light.texture =
-            _impl->textures.acquire({desc.texture, "auto", wrapS, WrapMode::Clamp, true}, desc.name);
+            _impl->textures.acquire({desc.texture, "auto", wrapS, WrapMode::Clamp, true, format}, desc.name);
     _impl->forget(id); // after the acquire: a texture in both stays loaded
     if (!emits) return;
     light.record.light = uint32_t(id);
@@ -218,7 +273,7 @@ bool LightTable::commit(const glm::vec3& boundsMin, const glm::vec3& boundsMax) 
 }
 
 uint32_t LightTable::count() const {
-    return _impl->areaLights + _impl->infiniteLights;
+    return _impl->areaLights + _impl->infiniteLights + _impl->thinLights;
 }
 
 bool LightTable::emits(LightId id) const {
@@ -231,6 +286,9 @@ void LightTable::describe(gpu::SceneRecord& scene) const {
     scene.lightCount = count();
     scene.areaLightCount = _impl->areaLights;
     scene.infiniteLightCount = _impl->infiniteLights;
+    scene.lightNodes = _impl->nodes.address();
+    scene.lightNodeCount = _impl->nodeCount;
+    scene.lightTreeChance = _impl->treeChance;
     if (_impl->hasShadows) scene.flags |= gpu::SCENE_HAS_SHADOWS_TO_WALK;
 }
 

@@ -13,10 +13,11 @@
 
 namespace hipr {
 
-/// All lights of a scene: area lights first, then infinite ones, chosen by power. Lights
-/// that emit nothing (invisible, zero or non-finite intensity, colour or size, singular transform) are left
-/// out; bad values give one message that names the light. Lights are laid out by name, so that a scene looks
-/// the same to the last bit whatever edits led to it. Used by one thread.
+/// All lights of a scene: area lights first, then thin ones, then infinite ones. Up to 16 area and thin
+/// lights are chosen by power, more by a tree that knows where they are. Lights that emit nothing (invisible,
+/// zero or non-finite intensity, colour or size, singular transform) are left out; bad values give one
+/// message that names the light. Lights are laid out by name, so that a scene looks the same to the last bit
+/// whatever edits led to it. Used by one thread.
 class LightTable {
 public:
     LightTable(Device& device, TextureStore& textures, CategoryTable& categories);
@@ -35,7 +36,7 @@ public:
     /// Whether the light emits, as far as its description tells.
     bool emits(LightId id) const;
 
-    /// Fills SceneRecord::lights, lightCumulative, lightCount, areaLightCount and infiniteLightCount,
+    /// Fills SceneRecord::lights, lightCumulative, the counts and the tree of lights,
     /// and SCENE_HAS_SHADOWS_TO_WALK.
     void describe(gpu::SceneRecord& scene) const;
 

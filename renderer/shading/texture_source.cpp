@@ -5,6 +5,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/shading/dome_format.h"
+
 namespace hipr {
 
 namespace {
@@ -28,6 +30,7 @@ void decode(Job& job, const AssetReader& assets, const ColorManager& color) {
             job.decoded = decodeImage(bytes, path, job.source->colorSpace, color, job.image, job.error);
         else if (!job.source->udim())
             job.error = "cannot be read";
+        job.image = toLatLong(std::move(job.image), job.source->format);
     } catch (const std::exception& e) { // the host's reader
         job.error = reasonOf(e);
     }

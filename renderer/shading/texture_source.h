@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/api/types.h"
+#include "renderer/api/light.h"
 #include "renderer/shading/image.h"
 #include "renderer/vulkan/device.h"
 
@@ -23,6 +23,7 @@ struct TextureSource {
     std::string path, colorSpace;
     std::string subject; ///< who asked first, for messages
     uint32_t users = 0;
+    DomeFormat format = DomeFormat::LatLong;
     bool keepPixels = false;
     bool loaded = false; ///< loading was tried
     std::vector<TextureTile> tiles;

@@ -48,8 +48,8 @@ gpu::TextureRecord describeTile(const TextureTile& tile, const TextureRequest& r
 } // namespace
 
 bool TextureRequest::operator<(const TextureRequest& o) const {
-    return std::tie(path, colorSpace, wrapS, wrapT, keepPixels) <
-           std::tie(o.path, o.colorSpace, o.wrapS, o.wrapT, o.keepPixels);
+    return std::tie(path, colorSpace, wrapS, wrapT, keepPixels, format) <
+           std::tie(o.path, o.colorSpace, o.wrapS, o.wrapT, o.keepPixels, o.format);
 }
 
 struct TextureStore::Impl {
@@ -59,7 +59,7 @@ struct TextureStore::Impl {
         uint32_t users;
         TextureRange range;
     };
-    using SourceKey = std::pair<std::string, std::string>; ///< path, colour space
+    using SourceKey = std::tuple<std::string, std::string, DomeFormat>; ///< path, colour space, projection
 
     Impl(Device& device, AssetReader assets, std::shared_ptr<const ColorManager> color)
         : device(device), assets(std::move(assets)), color(std::move(color)) {}
@@ -82,11 +82,12 @@ struct TextureStore::Impl {
 };
 
 TextureSource* TextureStore::Impl::source(const TextureRequest& request, const std::string& subject) {
-    auto& source = sources[{request.path, request.colorSpace}];
+    auto& source = sources[{request.path, request.colorSpace, request.format}];
     if (!source) {
         source = std::make_unique<TextureSource>();
         source->path = request.path;
         source->colorSpace = request.colorSpace;
+        source->format = request.format;
         source->subject = subject;
     }
     if (request.keepPixels && !source->keepPixels) {

@@ -1,11 +1,12 @@
 /// @file textures.h
-/// Texture files as TextureRecords: loaded once per (path, colour space, wrap modes), shared, freed when
-/// unused.
+/// Texture files as TextureRecords: loaded once per (path, colour space, projection, wrap modes), shared,
+/// freed when unused.
 #pragma once
 
 #include <memory>
 #include <string>
 
+#include "renderer/api/light.h"
 #include "renderer/api/material.h"
 #include "renderer/color/color.h"
 #include "renderer/shading/image.h"
@@ -22,6 +23,7 @@ struct TextureRequest {
     std::string colorSpace = "auto";
     WrapMode wrapS = WrapMode::UseMetadata, wrapT = WrapMode::UseMetadata;
     bool keepPixels = false; ///< keep a host copy for TextureStore::image() until releasePixels()
+    DomeFormat format = DomeFormat::LatLong; ///< pictures in others are loaded as latitude-longitude ones
     bool operator<(const TextureRequest& o) const;
 };
 

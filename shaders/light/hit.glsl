@@ -5,24 +5,40 @@
 #include "light/sample.glsl"
 
 // Weight of meeting `light` by a direction drawn with density `bsdfPdf` (negative: by no other way than this ray, as from
-// the camera) when sampleLight would have drawn it with density `lightPdf`.
+// the camera) when light sampling would have drawn it with density `lightPdf`.
 float hitWeight(LightRecord light, float bsdfPdf, float lightPdf) {
     if (bsdfPdf < 0.0) return 1.0;
-    return isExclusive(light) ? 0.0 : powerHeuristic(bsdfPdf, lightPdf * light.selectPdf);
+    return isExclusive(light) ? 0.0 : powerHeuristic(bsdfPdf, lightPdf);
+}
+
+// Whether the part of a ray from tMin to tHit comes through a box. Boxes are a little larger than what is in them.
+bool meetsLightBox(LightNode node, vec3 origin, vec3 inverse, float tMin, float tHit) {
+    vec3 a = (node.lo - origin) * inverse, b = (node.hi - origin) * inverse;
+    vec3 near = min(a, b), far = max(a, b);
+    return max(max(near.x, near.y), max(near.z, tMin)) <= min(min(far.x, far.y), min(far.z, tHit));
 }
 
 // Radiance of the area lights between ray.tMin and `tHit`. They are ghosts: all that lie on the way add up. Densities are
 // those of sampling from ray.origin: a ray that went straight through surfaces keeps its origin and moves its tMin.
-// `categories`: the set of the surface that the ray left; the camera sees all lights.
-vec3 lightsAlongRay(SceneRecord scene, Ray ray, float tHit, bool cameraRay, float bsdfPdf, uint categories) {
+// `n` and `categories`: those of the surface that the ray left, as for sampleLight; the camera sees all lights.
+vec3 lightsAlongRay(SceneRecord scene, Ray ray, float tHit, bool cameraRay, float bsdfPdf, vec3 n, uint categories) {
     vec3 sum = vec3(0.0);
-    [[dont_unroll]] for (uint i = 0u; i < scene.areaLightCount; ++i) {
-        LightRecord light = LightRef(scene.lights).v[i];
+    if (scene.areaLightCount == 0u) return sum;
+    LightNodeRef nodes = LightNodeRef(scene.lightNodes);
+    vec3 d = ray.direction;
+    vec3 inverse = 1.0 / mix(d, vec3(1e-20), lessThan(abs(d), vec3(1e-20)));
+    uint i = 0u;
+    [[dont_unroll]] while (i < scene.lightNodeCount) {
+        LightNode node = nodes.v[i];
+        bool leaf = node.light != NO_INDEX, met = meetsLightBox(node, ray.origin, inverse, ray.tMin, tHit);
+        i = met ? i + 1u : node.next;
+        if (!leaf || !met || node.light >= scene.areaLightCount) continue;
+        LightRecord light = LightRef(scene.lights).v[node.light];
         if (!cameraRay && !inCategory(scene, categories, light.category)) continue;
         LightPoint hit;
-        if (!meetLight(light, ray.origin, ray.direction, hit) || hit.t <= ray.tMin || hit.t >= tHit) continue;
-        float weight = hitWeight(light, cameraRay ? -1.0 : bsdfPdf, hit.pdf);
-        sum += weight * shapeRadiance(scene, light, hit.st, ray.direction);
+        if (!meetLight(light, ray.origin, d, hit) || hit.t <= ray.tMin || hit.t >= tHit) continue;
+        float pdf = cameraRay || bsdfPdf < 0.0 ? 0.0 : hit.pdf * lightChance(scene, light, ray.origin, n);
+        sum += hitWeight(light, cameraRay ? -1.0 : bsdfPdf, pdf) * shapeRadiance(scene, light, hit.st, d);
     }
     return sum;
 }
@@ -32,8 +48,7 @@ vec3 lightsAlongRay(SceneRecord scene, Ray ray, float tHit, bool cameraRay, floa
 vec3 environmentRadiance(SceneRecord scene, vec3 direction, bool cameraRay, float bsdfPdf, uint categories) {
     vec3 sum = vec3(0.0);
     bool domes = !(cameraRay && (scene.flags & SCENE_DOME_HIDDEN_FROM_CAMERA) != 0u);
-    uint end = scene.areaLightCount + scene.infiniteLightCount;
-    [[dont_unroll]] for (uint i = scene.areaLightCount; i < end; ++i) {
+    [[dont_unroll]] for (uint i = scene.lightCount - scene.infiniteLightCount; i < scene.lightCount; ++i) {
         LightRecord light = LightRef(scene.lights).v[i];
         if (!cameraRay && !inCategory(scene, categories, light.category)) continue;
         vec3 radiance = vec3(0.0);
@@ -47,7 +62,7 @@ vec3 environmentRadiance(SceneRecord scene, vec3 direction, bool cameraRay, floa
             radiance = domeRadiance(scene, light, st);
             pdf = light.distribution == 0ul ? 1.0 / (4.0 * PI) : domePdf(light, st);
         }
-        sum += hitWeight(light, cameraRay ? -1.0 : bsdfPdf, pdf) * radiance;
+        sum += hitWeight(light, cameraRay ? -1.0 : bsdfPdf, pdf * light.selectPdf) * radiance;
     }
     return sum;
 }

@@ -5,11 +5,13 @@
 #include "light/linking.glsl"
 #include "light/shaping.glsl"
 #include "light/shapes.glsl"
+#include "light/tree.glsl"
 
 struct LightSample {
     vec3 wi;
     float distance;  // INFINITE_DISTANCE for dome and distant lights
-    vec3 radiance;   // for directions without a density (a distant light of angle 0) radiance times solid angle
+    vec3 radiance;   // for directions without a density (of thin lights and a distant one of angle 0) radiance times
+                     // solid angle
     float pdf;       // per solid angle, choice of the light included
     vec2 lobeScale;  // the light's diffuse and specular multipliers, for evalBsdfScaled
     uint64_t shadow; // LightRecord::shadow
@@ -21,7 +23,8 @@ const float INFINITE_DISTANCE = 3.0e38;
 // Lights that only next-event estimation may count: those of no extent, and those whose diffuse and specular
 // multipliers are not 1, since a ray that meets a light does not know which lobe it came from.
 bool isExclusive(LightRecord light) {
-    return light.diffuse != 1.0 || light.specular != 1.0 || (light.kind == LIGHT_DISTANT && light.area == 0.0);
+    bool thin = light.kind == LIGHT_THIN || (light.kind == LIGHT_DISTANT && light.area == 0.0);
+    return thin || light.diffuse != 1.0 || light.specular != 1.0;
 }
 
 vec3 distantAxis(LightRecord light) { return normalize(light.lightToWorld[2]); } // towards the light
@@ -42,10 +45,17 @@ vec3 shapeRadiance(SceneRecord scene, LightRecord light, vec2 st, vec3 wi) {
     return radiance * max(sampleTexture(TextureRef(scene.textures).v[light.texture], st).rgb, 0.0);
 }
 
-// The light for u in [0, 1), in proportion to LightRecord::selectPdf: the first whose sum of chances is above u.
-uint chooseLight(SceneRecord scene, float u) {
+// The light for u in [0, 1): by the tree, or in proportion to the chances of lights, the first whose sum of chances is
+// above u. `chance` is that of the choice, 0 if it is none.
+uint chooseLight(SceneRecord scene, vec3 p, vec3 n, float u, out float chance) {
+    if (u < scene.lightTreeChance) {
+        uint light;
+        chance = scene.lightTreeChance * walkLightTree(scene, p, n, NO_INDEX, u / scene.lightTreeChance, light);
+        return light;
+    }
     FloatRef sums = FloatRef(scene.lightCumulative);
-    uint lo = 0u, hi = scene.lightCount - 1u; // the answer is in [lo, hi]
+    uint lo = scene.lightTreeChance > 0.0 ? scene.lightCount - scene.infiniteLightCount : 0u;
+    uint hi = scene.lightCount - 1u; // the answer is in [lo, hi]
     while (lo < hi) {
         uint middle = (lo + hi) >> 1;
         if (sums.v[middle] > u)
@@ -53,6 +63,7 @@ uint chooseLight(SceneRecord scene, float u) {
         else
             lo = middle + 1u;
     }
+    chance = LightRef(scene.lights).v[lo].selectPdf;
     return lo;
 }
 
@@ -64,6 +75,18 @@ bool sampleDistant(LightRecord light, vec2 u, inout LightSample ls) {
     ls.radiance = light.radiance * shapingFactor(light, ls.wi);
     ls.pdf = light.area > 0.0 ? 1.0 / light.area : 1.0;
     return true;
+}
+
+// A line sends light by the sine of the angle to it, like the cylinder it stands for.
+bool sampleThin(LightRecord light, vec3 p, float u, inout LightSample ls) {
+    vec3 way = light.lightToWorld * vec4((u - 0.5) * light.size.y, 0.0, 0.0, 1.0) - p;
+    float squared = dot(way, way);
+    ls.distance = sqrt(squared);
+    ls.wi = way / ls.distance;
+    ls.pdf = 1.0;
+    ls.radiance = light.radiance * shapingFactor(light, ls.wi) / squared;
+    if (light.size.y > 0.0) ls.radiance *= length(cross(ls.wi, normalize(light.lightToWorld[0])));
+    return squared > 0.0;
 }
 
 bool sampleEnvironment(SceneRecord scene, LightRecord light, vec2 u, inout LightSample ls) {
@@ -81,10 +104,14 @@ bool sampleEnvironment(SceneRecord scene, LightRecord light, vec2 u, inout Light
 }
 
 // Draws one light and a direction from `p` to it; u.x chooses the light, u.yz the direction. `categories`: the set of
-// the surface there. False: no light, or this one does not light it or cannot be seen from `p`.
-bool sampleLight(SceneRecord scene, vec3 p, uint categories, vec4 u, out LightSample ls) {
+// the surface there; `n`: its normal if light reaches it from one side alone, else 0. False: no light, or this one does
+// not light it or cannot be seen from `p`.
+bool sampleLight(SceneRecord scene, vec3 p, vec3 n, uint categories, vec4 u, out LightSample ls) {
     if (scene.lightCount == 0u) return false;
-    LightRecord light = LightRef(scene.lights).v[chooseLight(scene, u.x)];
+    float chance;
+    uint chosen = chooseLight(scene, p, n, u.x, chance);
+    if (!(chance > 0.0)) return false;
+    LightRecord light = LightRef(scene.lights).v[chosen];
     if (!inCategory(scene, categories, light.category)) return false;
     ls.shadow = light.shadow;
     ls.lobeScale = vec2(light.diffuse, light.specular);
@@ -95,6 +122,8 @@ bool sampleLight(SceneRecord scene, vec3 p, uint categories, vec4 u, out LightSa
         seen = sampleEnvironment(scene, light, u.yz, ls);
     } else if (light.kind == LIGHT_DISTANT) {
         seen = sampleDistant(light, u.yz, ls);
+    } else if (light.kind == LIGHT_THIN) {
+        seen = sampleThin(light, p, u.y, ls);
     } else {
         LightPoint point;
         seen = sampleShape(light, p, u.yz, ls.wi, point);
@@ -102,7 +131,7 @@ bool sampleLight(SceneRecord scene, vec3 p, uint categories, vec4 u, out LightSa
         ls.pdf = point.pdf;
         ls.radiance = shapeRadiance(scene, light, point.st, ls.wi);
     }
-    ls.pdf *= light.selectPdf;
+    ls.pdf *= chance;
     return seen && any(greaterThan(ls.radiance, vec3(0.0)));
 }
 #endif

@@ -1,4 +1,4 @@
-// Lights. Area lights come first in the table, then infinite ones (see SceneRecord).
+// Lights. Area lights come first in the table, then thin ones, then infinite ones (see SceneRecord).
 #ifndef HIPR_SHARED_LIGHT_H
 #define HIPR_SHARED_LIGHT_H
 #include "language.h"
@@ -10,6 +10,7 @@ HIPR_CONST uint LIGHT_RECT = 2u;
 HIPR_CONST uint LIGHT_SPHERE = 3u;
 HIPR_CONST uint LIGHT_DISK = 4u;
 HIPR_CONST uint LIGHT_CYLINDER = 5u;
+HIPR_CONST uint LIGHT_THIN = 6u;     // a point, or a line along local X: LightDesc::thin
 
 // What a light's radiance is multiplied by, by the direction it leaves in: see shaders/light/shaping.glsl.
 struct ShapingRecord {
@@ -23,6 +24,18 @@ struct ShapingRecord {
                              // columns from 0 to 2 PI around it, both ends included; one column: the same all around
     uint profileRows;
     uint profileColumns;
+};
+
+// A node of the tree of area and thin lights, in depth-first order: see shaders/light/tree.glsl.
+struct LightNode {
+    vec3 lo;
+    float power;
+    vec3 hi;
+    uint next;               // node to go on with when this one's lights are passed over; of the last ones: their number
+    vec3 axis;               // normals of the lights lie within a cone around it
+    float cosSpread;         // cosine of that cone's angle
+    float cosEmission;       // of the angle off the normals within which light leaves
+    uint light;              // leaf: index of a LightRecord, NO_INDEX: has children
 };
 
 // Shadows that are not plain: what gets through occluders and which objects are any. See shaders/light/shadow.glsl.
@@ -40,11 +53,12 @@ struct ShadowRecord {
 struct LightRecord {
     mat4x3 lightToWorld;     // unit shapes: rect [-.5,.5]^2 scaled by size, sphere/disk radius, cylinder length along X
     mat4x3 worldToLight;
-    vec3 radiance;           // nits in render RGB, normalisation and exposure folded in
+    vec3 radiance;           // nits in render RGB, normalisation and exposure folded in; thin: radiance times area, over 4
+                             // (point) or PI (line), so that what arrives is that over the squared distance
     uint kind;               // LIGHT_*
-    vec2 size;               // rect: width, height; sphere, disk: radius; cylinder: radius, length; distant: cos of half angle
+    vec2 size;               // rect: width, height; sphere, disk: radius; cylinder: radius, length; thin: 0, length; distant: cos of half angle
     float area;              // world area (area lights), solid angle (distant)
-    float selectPdf;         // probability that NEE picks this light
+    float selectPdf;         // probability that NEE picks this light, or, of a leaf of the tree, the tree
     uint texture;            // TextureRecord or NO_INDEX
     uint light;              // LightId value
     float diffuse;
@@ -55,7 +69,7 @@ struct LightRecord {
     uint64_t shaping;        // ShapingRecord, 0: none
     uint64_t shadow;         // ShadowRecord, 0: plain shadows
     uint category;           // of the objects that are lit, NO_INDEX: all
-    uint pad;
+    uint leaf;               // area and thin lights: their LightNode
 };
 
 HIPR_SHARED_END

@@ -32,6 +32,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Mat
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer InputNodeRef { InputNode v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer TextureRef { TextureRecord v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer LightRef { LightRecord v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer LightNodeRef { LightNode v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer ShapingRef { ShapingRecord v; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer ShadowRef { ShadowRecord v; };
 #endif

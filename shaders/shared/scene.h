@@ -82,12 +82,15 @@ struct SceneRecord {
     uint64_t materials;      // MaterialRecord[] (shaders/shared/material.h); entry 0 is the fallback look
     uint64_t textures;       // TextureRecord[]
     uint64_t lights;         // LightRecord[]  (shaders/shared/light.h)
-    uint64_t lightCumulative;// float[lightCount]: sums of LightRecord::selectPdf
+    uint64_t lightCumulative;// float[lightCount]: sums of the chances of lights, those of the tree as one
+    uint64_t lightNodes;     // LightNode[lightNodeCount]: area and thin lights
     uint64_t bvh;            // root of the GLSL traversal's structures, or 0
     uint instanceCount;
     uint lightCount;
-    uint areaLightCount;     // lights [0, areaLightCount) have a shape a ray can hit
-    uint infiniteLightCount; // lights [areaLightCount, areaLightCount + infiniteLightCount) are dome or distant
+    uint areaLightCount;     // the first lights have a shape a ray can hit
+    uint infiniteLightCount; // the last of all lights are dome or distant ones
+    uint lightNodeCount;
+    float lightTreeChance;   // of choosing by the tree; 0: it is there for rays alone
     vec3 boundsMin;          // world bounds of all instances
     vec3 boundsMax;
     uint flags;              // SCENE_*

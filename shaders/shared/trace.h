@@ -76,6 +76,7 @@ struct PathState {
     uint medium;             // MEDIUM_*
     uint mediumColor;        // colour of a subsurface medium where the path entered it: packMediumColor() in medium.glsl
     uint categories;         // InstanceRecord::categories of the surface that scattered it last
+    uint lightNormal;        // of that surface, where light reaches one side alone: see shaders/light/tree.glsl
 };
 
 // What a shadow ray carries.

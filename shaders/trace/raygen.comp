@@ -32,6 +32,7 @@ void main() {
     path.medium = MEDIUM_NONE;
     path.mediumColor = 0u;
     path.categories = 0u;
+    path.lightNormal = 0u;
 
     const vec4 u = sobol4(pixel, path.sampleIndex, 0u, trace.seed);
     const vec2 film = vec2(pixel) + 0.5 + sampleFilter(trace.pixelFilter, trace.filterWidth, u.xy);

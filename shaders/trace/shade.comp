@@ -36,6 +36,7 @@ struct Path {
     uint medium;
     uint mediumColor;
     uint categories;
+    uint lightNormal;
 };
 
 Path loadPath(TraceRecord trace, uint slot) {
@@ -43,7 +44,7 @@ Path loadPath(TraceRecord trace, uint slot) {
     const uint pixel = paths.v[slot].pixel;
     return Path(slot, paths.v[slot].throughput, paths.v[slot].bsdfPdf, paths.v[slot].event, paths.v[slot].depth,
                 uvec2(pixel & 0xffffu, pixel >> 16), paths.v[slot].sampleIndex, paths.v[slot].history,
-                paths.v[slot].medium, paths.v[slot].mediumColor, paths.v[slot].categories);
+                paths.v[slot].medium, paths.v[slot].mediumColor, paths.v[slot].categories, paths.v[slot].lightNormal);
 }
 
 void storePath(TraceRecord trace, Path path) {
@@ -56,6 +57,7 @@ void storePath(TraceRecord trace, Path path) {
     paths.v[path.slot].medium = path.medium;
     paths.v[path.slot].mediumColor = path.mediumColor;
     paths.v[path.slot].categories = path.categories;
+    paths.v[path.slot].lightNormal = path.lightNormal;
 }
 
 vec4 randomVector(TraceRecord trace, Path path, uint which) {
@@ -69,7 +71,8 @@ vec3 offsetTowards(Surface surface, vec3 direction) {
 // Next event estimation: the light of one emitter, to be weighted against finding it by BSDF sampling.
 void sampleDirectLight(TraceRecord trace, SceneRecord scene, Path path, Surface surface, vec3 wo, vec4 u) {
     LightSample light;
-    if (!sampleLight(scene, surface.position, path.categories, u, light)) return;
+    const vec3 n = unpackLightNormal(path.lightNormal); // as rays that meet the light will have it
+    if (!sampleLight(scene, surface.position, n, path.categories, u, light)) return;
     float bsdfPdf;
     const vec3 f = evalBsdfScaled(surface, wo, light.wi, light.lobeScale, bsdfPdf);
     const vec3 contribution = path.throughput * f * light.radiance / light.pdf;
@@ -209,6 +212,7 @@ bool scatter(TraceRecord trace, SceneRecord scene, inout Path path, inout Ray ra
     if (path.depth >= trace.maxDepth) return false;
     disperse(trace, scene, path, surface);
     path.categories = InstanceRef(scene.instances).v[hit.instance].categories;
+    path.lightNormal = surface.openPbr || surface.glass > 0.0 ? 0u : packLightNormal(surface.ng);
     const vec3 wo = -ray.direction;
     sampleDirectLight(trace, scene, path, surface, wo, u);
     return bounce(trace, path, ray, surface, wo, u.w / surface.opacity); // uniform again
@@ -217,7 +221,8 @@ bool scatter(TraceRecord trace, SceneRecord scene, inout Path path, inout Ray ra
 // The light a ray has run into by `distance`, and the sky if it met nothing.
 void collectLight(TraceRecord trace, SceneRecord scene, Path path, Ray ray, float distance, bool miss) {
     const bool cameraRay = path.depth == 0u;
-    vec3 light = lightsAlongRay(scene, ray, distance, cameraRay, path.bsdfPdf, path.categories);
+    vec3 light = lightsAlongRay(scene, ray, distance, cameraRay, path.bsdfPdf,
+                                unpackLightNormal(path.lightNormal), path.categories);
     if (cameraRay && any(greaterThan(light, vec3(0.0)))) PathRef(trace.paths).v[path.slot].alpha = 1.0;
     if (miss) light += environmentRadiance(scene, ray.direction, cameraRay, path.bsdfPdf, path.categories);
     addRadiance(trace, path.slot, path.throughput * light, path.depth > 1u);

@@ -21,6 +21,13 @@ Rows attributes() {
         {"LightDomeTextureSharedWithMaterial",
          in("/World/Looks/Textured/Color", "asset inputs:file = @../../scenes/textures/tile.1001.png@"),
          in(lights + "Dome", ramp)},
+        {"LightDomeFormat", in(lights + "Dome", R"(token texture:format = "angular")"),
+         in(lights + "Dome", ramp)},
+        {"LightDomeFormatBack", in(lights + "Dome", R"(token texture:format = "latlong")"),
+         in(lights + "Dome", std::string(ramp) + R"(
+token texture:format = "mirroredBall")")},
+        {"LightSphereAsAPoint", in(lights + "Sphere", "bool treatAsPoint = true")},
+        {"LightCylinderAsALine", in(lights + "Tube", "bool treatAsLine = true")},
         {"LightDomeTurns", in(lights + "Dome", R"(float xformOp:rotateY = 90
 uniform token[] xformOpOrder = ["xformOp:rotateY"])"),
          in(lights + "Dome", ramp)},
@@ -108,7 +115,6 @@ Rows shadows() {
         {"LightLinked", plainOnly},
         {"LightLinkedToMore", link("lightLink", "[</World/Geo/Plain>, </World/Inst>]"), plainOnly},
         {"LightLinkedToOther", link("lightLink", "</World/Inst>"), plainOnly},
-        {"LightLinkedToNothing", link("lightLink", "[]"), plainOnly},
         {"LightLinkedToAll", in(lights + "Rect", "uniform bool collection:lightLink:includeRoot = true"),
          plainOnly},
         {"LightShadowLinked", link("shadowLink", "</World/Inst>")},

@@ -184,7 +184,7 @@ TEST(LightLinking, HoldsForLightThatRaysMeet) {
 
 TEST(LightLinking, OfInstances) {
     Room room;
-    const ObjectId id(700);
+    const ObjectId id{700};
     room.stage.edit.setGeometry(GeometryId(700), quadMesh());
     room.stage.edit.setMaterial(MaterialId(700), matte(glm::vec3(Albedo)));
     room.stage.edit.setObject(id, {"/halves", GeometryId(700), {MaterialId(700)}});

@@ -76,6 +76,11 @@ Section curvesSection() {
              "a material is bound",
              curves(Bits::DirtyMaterialId, bind),
              {{Target::Strand, Change::Material}}},
+            {"HdChangeTracker::DirtyCategories", "the collections of lights that it is in",
+             "it comes into one",
+             curves(Bits::DirtyCategories,
+                    [](TestScene::Prim& prim, bool make) { prim.categories = categories(make); }),
+             Elements{{Target::Strand, Change::Linking}}},
             {"HdChangeTracker::AllDirty", "everything; only what differs is a change", "it moves",
              curves(Bits::AllDirty, move), moved},
         }};

@@ -1,5 +1,6 @@
 // A white Lambert receiver (albedo 1, so radiance * pi = irradiance) at one point, lit without occlusion. Invocation i
-// draws a light sample and a cosine-weighted direction, and looks along directions[i].
+// draws a light sample and a cosine-weighted direction, and looks along directions[i]. It also walks the tree of lights to
+// where a random number leads, and to light i, or the i-th after them all.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "light/hit.glsl"
@@ -15,7 +16,9 @@ struct LightOutcome {
     vec3 byMeeting; // by cosine-weighted directions alone
     float distance;
     vec3 combined;  // by both, weighted
-    float pad;
+    uint chosen;    // by the tree
+    float chance;   // that the walk came there
+    float chanceOf; // light i % their number
     vec3 seen;      // radiance along directions[i], as the camera sees it
     vec3 weighted;  // the same met by a BSDF sample of density 1
 };
@@ -28,7 +31,7 @@ layout(push_constant, scalar) uniform Push {
 } push;
 
 vec3 met(SceneRecord scene, vec3 direction, bool cameraRay, float bsdfPdf) {
-    return lightsAlongRay(scene, Ray(push.point, 0.0, direction, 1e30), 1e30, cameraRay, bsdfPdf, 0u) +
+    return lightsAlongRay(scene, Ray(push.point, 0.0, direction, 1e30), 1e30, cameraRay, bsdfPdf, push.normal, 0u) +
            environmentRadiance(scene, direction, cameraRay, bsdfPdf, 0u);
 }
 
@@ -40,7 +43,7 @@ void main() {
     result.byLight = result.combined = vec3(0.0);
     result.pdf = result.atSample = 0.0;
     LightSample ls;
-    if (sampleLight(scene, push.point, 0u, sobol4(uvec2(3, 1), i, 0u, 0u), ls)) {
+    if (sampleLight(scene, push.point, push.normal, 0u, sobol4(uvec2(3, 1), i, 0u, 0u), ls)) {
         const float cosine = max(0.0, dot(ls.wi, push.normal));
         result.wi = ls.wi;
         result.pdf = ls.pdf;
@@ -57,5 +60,13 @@ void main() {
     const vec3 direction = Vec3Ref(push.directions).v[i];
     result.seen = met(scene, direction, true, -1.0);
     result.weighted = met(scene, direction, false, 1.0);
+    result.chosen = NO_INDEX;
+    result.chance = result.chanceOf = 0.0;
+    if (scene.lightTreeChance > 0.0) {
+        result.chance = walkLightTree(scene, push.point, push.normal, NO_INDEX, sobol4(uvec2(3, 1), i, 2u, 0u).x, result.chosen);
+        const uint leaf = LightRef(scene.lights).v[i % (scene.lightCount - scene.infiniteLightCount)].leaf;
+        uint same;
+        result.chanceOf = walkLightTree(scene, push.point, push.normal, leaf, 0.0, same);
+    }
     OutcomeRef(push.outcomes).v[i] = result;
 }

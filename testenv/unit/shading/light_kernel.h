@@ -18,7 +18,8 @@ struct LightOutcome {
     glm::vec3 byMeeting;
     float distance;
     glm::vec3 combined;
-    float pad;
+    uint32_t chosen;
+    float chance, chanceOf;
     glm::vec3 seen, weighted;
 };
 

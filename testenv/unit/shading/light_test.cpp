@@ -211,6 +211,45 @@ TEST(LightIrradiance, Cylinder) {
     expectIrradiance(tube, 2.0 * cylinderIrradiance(tube));
 }
 
+/// A sphere that is taken for a point has the power of the sphere: radiance times pi r^2 in each direction.
+/// Only light samples find it.
+TEST(LightIrradiance, SphereAsAPoint) {
+    LightDesc point = light(LightKind::Sphere, at(0.6, 0.0, 1.8));
+    point.radius = 0.7f;
+    point.thin = true;
+    const double squared = 0.36 + 3.24, geometry = 1.8 / (std::sqrt(squared) * squared);
+    const auto expect = [&](double truth) {
+        const Irradiance e = irradiance(LitScene({point}), Origin, Up);
+        EXPECT_NEAR(e.byLight.y, truth, 1e-4 * truth);
+        EXPECT_NEAR(e.combined.y, truth, 1e-4 * truth);
+        EXPECT_EQ(e.byMeeting.y, 0.0);
+    };
+    expect(2.0 * Pi * 0.49 * geometry);
+    point.normalize = true;
+    expect(2.0 / 4.0 * geometry);
+    point.radius = 0.f;
+    expect(2.0 / 4.0 * geometry);
+    point.shaping.coneAngle = 30.f; // shines down, past the origin by 18.4 degrees
+    expect(2.0 / 4.0 * geometry);
+    point.shaping.coneAngle = 15.f;
+    EXPECT_EQ(irradiance(LitScene({point}), Origin, Up).combined.y, 0.0);
+}
+
+/// A very thin cylinder sends what a line does.
+TEST(LightIrradiance, CylinderAsALine) {
+    LightDesc tube = light(LightKind::Cylinder, at(0.3, -0.4, 1.5) *
+                                                    glm::rotate(glm::dmat4(1.0), 0.5, glm::dvec3(0, 1, 0)) *
+                                                    glm::scale(glm::dmat4(1.0), glm::dvec3(1.5, 0.8, 0.8)));
+    tube.radius = 0.002f;
+    tube.length = 1.6f;
+    const double truth = 2.0 * cylinderIrradiance(tube);
+    tube.thin = true;
+    const Irradiance e = irradiance(LitScene({tube}), Origin, Up);
+    EXPECT_NEAR(e.byLight.y, truth, 0.005 * truth);
+    EXPECT_NEAR(e.combined.y, truth, 0.005 * truth);
+    EXPECT_EQ(e.byMeeting.y, 0.0);
+}
+
 TEST(LightIrradiance, LightsAddUp) {
     LightDesc sphere = light(LightKind::Sphere, at(0.6, 0.0, 1.8));
     LightDesc dome = light(LightKind::Dome, glm::dmat4(1.0));
