@@ -246,7 +246,9 @@ void main() {
     Ray ray = RayRef(trace.rays[push.turn]).v[i];
     Path path = loadPath(trace, SlotRef(trace.raySlots[push.turn]).v[i]);
 
-    const bool nothing = hit.instance == NO_INDEX, inMedium = nothing && ray.tMax < RAY_INFINITY, miss = nothing && !inMedium;
+    // Camera rays end at the far plane, later ones only where a medium scatters the path.
+    const bool nothing = hit.instance == NO_INDEX;
+    const bool inMedium = nothing && path.depth > 0u && ray.tMax < RAY_INFINITY, miss = nothing && !inMedium;
     const float distance_ = nothing ? ray.tMax : hit.t;
     collectLight(trace, scene, path, ray, distance_, miss);
     const MediumRecord medium = mediumOf(scene, path);

@@ -230,6 +230,27 @@ TEST(Camera, ExposureMultipliesAndCostsNoSample) {
     EXPECT_EQ(dot.renderer->progress().pathsTraced, paths);
 }
 
+// Behind the far plane is the sky, seen by the camera's own rays.
+TEST(Camera, RaysEndAtTheFarPlaneInTheSky) {
+    Settings settings;
+    settings.samples = 4;
+    Stage stage(settings);
+    LightDesc dome;
+    dome.kind = LightKind::Dome;
+    dome.intensity = 3.f;
+    stage.add(dome);
+    CameraDesc desc = camera();
+    desc.projection = glm::perspective(1.0, 1.0, 0.1, 10.0);
+    stage.edit.setCamera(desc);
+    stage.film(16, 16);
+    stage.render();
+    const Progress progress = stage.renderer->progress();
+    EXPECT_EQ(progress.pathsTraced, 16u * 16u * 4u);
+    EXPECT_EQ(progress.nearestRays, progress.pathsTraced);
+    for (const glm::vec4& pixel : stage.color().values)
+        EXPECT_EQ(pixel.x, 3.f);
+}
+
 // Pulling the focus of a live picture ends in the picture that a new renderer makes.
 TEST(Camera, RefocusingEqualsAFreshPicture) {
     for (const char* mode : {"uniform", "delta", "paper"}) {
