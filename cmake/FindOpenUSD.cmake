@@ -4,6 +4,7 @@
 #
 # Targets:   OpenUSD::hydra    what a render delegate links: hd, hf, cameraUtil, pxOsd, ar, sdf, vt, gf, work, plug, trace, tf, arch
 #            OpenUSD::imaging  hydra plus what a host without a window links: usd, usdGeom, usdShade, usdImaging and friends
+#            OpenUSD::registry hydra plus the shader registry, sdr and ndr (not from 25.05 on, which has one library)
 # Variables: OpenUSD_VERSION, OpenUSD_PREFIX, OpenUSD_PYTHON (built with Python support), OpenUSD_HAS_IMAGING
 #
 # Three kinds of install are understood: one that exports working CMake targets (pxrConfig.cmake), a monolithic library
@@ -195,5 +196,10 @@ if(OpenUSD_FOUND AND NOT TARGET OpenUSD::hydra)
     if(OpenUSD_HAS_IMAGING)
         add_library(OpenUSD::imaging INTERFACE IMPORTED)
         target_link_libraries(OpenUSD::imaging INTERFACE OpenUSD::hydra ${_usd_imaging})
+    endif()
+    _usd_resolve(_usd_registry sdr ndr)
+    if(NOT _usd_registry_MISSING)
+        add_library(OpenUSD::registry INTERFACE IMPORTED)
+        target_link_libraries(OpenUSD::registry INTERFACE OpenUSD::hydra ${_usd_registry})
     endif()
 endif()

@@ -275,7 +275,7 @@ void RendererImpl::count(uint32_t paths, double seconds) {
     _progress.fraction = double(_schedule.pathsDone()) /
                          std::max(1.0, double(_film.pixels()) * double(_progress.samplesTotal));
     _progress.pictureShown = _schedule.everythingShown();
-    _progress.firstHitsDone = firstHitsDone();
+    _progress.firstHitsDone = firstHitsDone() && !_splats.pending(); // the ids of splats are among them
     if (paths && _progress.firstRevealSeconds == 0) _progress.firstRevealSeconds = secondsSince(_restarted);
     _progress.converged = complete();
 }

@@ -42,7 +42,7 @@ void RendererImpl::viewSplats(bool carried) {
 void RendererImpl::awaitSplats() {
     if (!_splats.pending()) return;
     std::lock_guard<std::mutex> lock(_progressMutex);
-    _progress.converged = false;
+    _progress.converged = _progress.firstHitsDone = false;
 }
 
 bool RendererImpl::renderSplats() {

@@ -156,6 +156,19 @@ TEST(Splats, HaveDepthAndIdsWhereTheyCover) {
     EXPECT_NEAR(stage.read<float>(AovKind::Depth).at(middle, middle), splat, 1e-5f);
 }
 
+// A host that reads ids as soon as they are said to be there must find those of splats in them.
+TEST(Splats, IdsAreNotDoneBeforeTheyAreDrawn) {
+    SplatStage stage;
+    stage.render();
+    EXPECT_TRUE(stage.renderer->progress().firstHitsDone);
+    stage.addSplats(ball(Green, 0.5f), {translation(0, 0, 1)});
+    stage.renderer->commit(stage.edit);
+    EXPECT_FALSE(stage.renderer->progress().firstHitsDone);
+    while (!stage.renderer->progress().firstHitsDone)
+        ASSERT_TRUE(stage.renderer->renderBatch() || stage.renderer->progress().firstHitsDone);
+    EXPECT_EQ(stage.read<int>(AovKind::PrimId).at(Size / 2, Size / 2), 77);
+}
+
 TEST(Splats, EditsOfThemKeepTheSamplesOfThePicture) {
     SplatStage stage;
     stage.addSplats(ball(Green), {translation(-1, 0, 1)});
