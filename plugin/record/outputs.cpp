@@ -10,14 +10,14 @@ std::string Output::path(double frame) const {
     return named != _pathAtFrame.end() ? named->second : _pattern.path(frame);
 }
 
-Picture Output::content(const Picture& picture) const {
-    if (_layers.empty()) return picture;
+void Output::write(const std::string& path, const Picture& picture, const DisplayOptions& display) const {
+    if (_layers.empty()) return writePicture(path, picture, display);
     Picture part{picture.width, picture.height, {}, picture.info};
     for (const LayerName& layer : _layers) {
         part.layers.push_back(*picture.find(layer.aov));
         part.layers.back().name = layer.name;
     }
-    return part;
+    writePicture(path, part, display);
 }
 
 std::vector<Output> outputsOf(const Options& options) {

@@ -20,8 +20,8 @@ public:
     explicit Output(const ProductFile& file);
 
     std::string path(double frame) const;
-    /// What the file shows of a picture, which must have its AOVs.
-    Picture content(const Picture& picture) const;
+    /// Writes what the file shows of a picture, which must have its AOVs. Throws Failure with ExitOutput.
+    void write(const std::string& path, const Picture& picture, const DisplayOptions& display) const;
 
 private:
     FramePattern _pattern;

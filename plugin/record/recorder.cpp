@@ -356,7 +356,7 @@ void Recording::writePictures(FrameReport& report) {
     picture.info.seconds = report.seconds;
     for (const Output& output : _outputs) {
         const std::string path = outputPath(output, report);
-        writePicture(path, output.content(picture), _display);
+        output.write(path, picture, _display);
         report.files.push_back(path);
         if (_options.verbosity != Verbosity::Quiet)
             std::fprintf(stderr, "wrote %s (%d x %d, %ld samples, %s)\n", path.c_str(), picture.width,

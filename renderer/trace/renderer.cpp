@@ -304,8 +304,9 @@ void RendererImpl::expose(float* rgba) const {
     const float exposure =
         _scene.camera() && _settings.exposureCompensation ? _scene.camera()->exposure : 1.f;
     if (exposure == 1.f) return;
-    for (size_t i = 0; i < 4 * _film.pixels(); ++i)
-        if (i % 4 != 3) rgba[i] *= exposure;
+    for (float* const end = rgba + 4 * _film.pixels(); rgba != end; rgba += 4)
+        for (int c = 0; c < 3; ++c)
+            rgba[c] *= exposure;
 }
 
 MemoryReport RendererImpl::memory() const {
