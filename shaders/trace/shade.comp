@@ -2,67 +2,14 @@
 // sample goes to the shadow queue, the continued path to the other ray queue.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "trace/camera.glsl"
 #include "trace/offset.glsl"
-#include "sampling/sobol.glsl"
+#include "trace/path.glsl"
 #include "material/surface.glsl"
 #include "material/bsdf.glsl"
-#include "material/medium.glsl"
-#include "light/sample.glsl"
-#include "light/hit.glsl"
 #include "shared/reproject.h"
-
-// Random vectors of one event; raygen has set 0.
-const uint RANDOM_LIGHT = 1u; // w, which light sampling leaves alone, decides on passing through and on roulette
-const uint RANDOM_BSDF = 2u;
-const uint RANDOM_SETS = 2u;
-// Beside those: one set an event for the length of the flight to it, and one a path for its wavelength.
-const uint RANDOM_FLIGHT = 0x10000u;
-const uint RANDOM_WAVELENGTH = 0xffffu;
 
 // How far, as a share of the depth, the plane of a surface is followed to the pixel's centre.
 const float PLANE_REACH = 0.05;
-
-// The part of PathState that a bounce works on.
-struct Path {
-    uint slot;
-    vec3 throughput;
-    float bsdfPdf;
-    uint event;
-    uint depth;
-    uvec2 pixel;
-    uint sampleIndex;
-    uint history;
-    uint medium;
-    uint mediumColor;
-    uint categories;
-    uint lightNormal;
-};
-
-Path loadPath(TraceRecord trace, uint slot) {
-    PathRef paths = PathRef(trace.paths);
-    const uint pixel = paths.v[slot].pixel;
-    return Path(slot, paths.v[slot].throughput, paths.v[slot].bsdfPdf, paths.v[slot].event, paths.v[slot].depth,
-                uvec2(pixel & 0xffffu, pixel >> 16), paths.v[slot].sampleIndex, paths.v[slot].history,
-                paths.v[slot].medium, paths.v[slot].mediumColor, paths.v[slot].categories, paths.v[slot].lightNormal);
-}
-
-void storePath(TraceRecord trace, Path path) {
-    PathRef paths = PathRef(trace.paths);
-    paths.v[path.slot].throughput = path.throughput;
-    paths.v[path.slot].bsdfPdf = path.bsdfPdf;
-    paths.v[path.slot].event = path.event;
-    paths.v[path.slot].depth = path.depth;
-    paths.v[path.slot].history = path.history;
-    paths.v[path.slot].medium = path.medium;
-    paths.v[path.slot].mediumColor = path.mediumColor;
-    paths.v[path.slot].categories = path.categories;
-    paths.v[path.slot].lightNormal = path.lightNormal;
-}
-
-vec4 randomVector(TraceRecord trace, Path path, uint which) {
-    return sobol4(path.pixel, path.sampleIndex, RANDOM_SETS * path.event + which, trace.seed);
-}
 
 vec3 offsetTowards(Surface surface, vec3 direction) {
     return offsetOrigin(surface.position, dot(surface.ng, direction) < 0.0 ? -surface.ng : surface.ng);
@@ -93,14 +40,6 @@ uint scatterKind(Surface surface, uint lobe, vec3 wi) {
     return roughness < SPECULAR_ROUGHNESS ? SCATTER_SPECULAR : SCATTER_GLOSSY;
 }
 
-// Whether a path goes on, with the weight of those that do not.
-bool survives(inout Path path, float roulette) {
-    const float survival = clamp(max(path.throughput.r, max(path.throughput.g, path.throughput.b)), 0.05, 1.0);
-    if (roulette >= survival) return false;
-    path.throughput /= survival;
-    return true;
-}
-
 // What the path travels through after a lobe has sent it towards `wi`.
 void enterMedium(inout Path path, Surface surface, uint lobe, vec3 wi) {
     if (!surface.openPbr || surface.thinWalled || dot(wi, surface.ng) >= 0.0) return;
@@ -128,15 +67,6 @@ bool bounce(TraceRecord trace, inout Path path, inout Ray ray, Surface surface, 
     return any(greaterThan(path.throughput, vec3(0.0))) && allFinite(path.throughput);
 }
 
-// Whether what the path has met is what its pixel shows, and is to be kept.
-bool keepsSeen(TraceRecord trace, Path path) {
-    return path.depth == 0u && path.sampleIndex == 0u && trace.seen != 0ul;
-}
-
-Ray rayThroughCentre(TraceRecord trace, Path path) {
-    return cameraRay(CameraRef(trace.camera), vec2(path.pixel) + 0.5, uvec2(trace.width, trace.height));
-}
-
 // The sample lies somewhere around the pixel's centre: what shows there is the surface, continued as a plane. Where that
 // leads far away, as at silhouettes, the point at the same depth.
 void keepSeenSurface(TraceRecord trace, Path path, Surface surface) {
@@ -152,18 +82,6 @@ void keepSeenSurface(TraceRecord trace, Path path, Surface surface) {
     PathSeenRef(trace.pathSeen).v[path.slot] =
         SeenPoint(centre.origin + distance_ * centre.direction,
                   packLook(share * scattered / max(scattered + emitted, 1e-6), alpha, 0.0));
-}
-
-// The medium a path is in.
-MediumRecord mediumOf(SceneRecord scene, Path path) {
-    const uint kind = path.medium & MEDIUM_KIND, material = (path.medium & ~MEDIUM_DISPERSED) >> MEDIUM_SHIFT;
-    MediumRecord medium = MediumRecord(vec3(0.0), 0.0, vec3(0.0), 0.0);
-    if (kind == MEDIUM_INTERIOR) medium = MaterialRef(scene.materials).v[material].interior;
-    if (kind == MEDIUM_SUBSURFACE) {
-        medium = MaterialRef(scene.materials).v[material].subsurface;
-        medium.albedo = scatteringAlbedo(unpackMediumColor(path.mediumColor), medium.anisotropy);
-    }
-    return medium;
 }
 
 // Scatters a path in the medium it is in, at the end of its flight. False: the path ends here.
@@ -218,25 +136,6 @@ bool scatter(TraceRecord trace, SceneRecord scene, inout Path path, inout Ray ra
     return bounce(trace, path, ray, surface, wo, u.w / surface.opacity); // uniform again
 }
 
-// The light a ray has run into by `distance`, and the sky if it met nothing.
-void collectLight(TraceRecord trace, SceneRecord scene, Path path, Ray ray, float distance, bool miss) {
-    const bool cameraRay = path.depth == 0u;
-    vec3 light = lightsAlongRay(scene, ray, distance, cameraRay, path.bsdfPdf,
-                                unpackLightNormal(path.lightNormal), path.categories);
-    if (cameraRay && any(greaterThan(light, vec3(0.0)))) PathRef(trace.paths).v[path.slot].alpha = 1.0;
-    if (miss) light += environmentRadiance(scene, ray.direction, cameraRay, path.bsdfPdf, path.categories);
-    addRadiance(trace, path.slot, path.throughput * light, path.depth > 1u);
-}
-
-// Lets a scattering medium end the path's next flight. False: nothing is left of the path.
-bool extendFlight(TraceRecord trace, SceneRecord scene, Path path, inout Ray ray) {
-    const MediumRecord medium = mediumOf(scene, path);
-    if (medium.albedo == vec3(0.0)) return true;
-    const float u = sobol4(path.pixel, path.sampleIndex, RANDOM_FLIGHT + path.event, trace.seed).x;
-    ray.tMax = ray.tMin + sampleFlight(medium, path.throughput, u);
-    return any(greaterThan(path.throughput, vec3(0.0)));
-}
-
 void main() {
     const TraceRecord trace = TraceRecordRef(push.record).v;
     const uint i = gl_GlobalInvocationID.x;
@@ -258,9 +157,5 @@ void main() {
         PathSeenRef(trace.pathSeen).v[path.slot] = SeenPoint(rayThroughCentre(trace, path).direction, SEEN_SKY);
     if (miss || !(inMedium ? scatterInMedium(trace, medium, path, ray) : scatter(trace, scene, path, ray, hit))) return;
     if (!extendFlight(trace, scene, path, ray)) return;
-    storePath(trace, path);
-    const uint other = 1u - push.turn;
-    const uint j = appendToQueue(trace, QUEUE_RAYS + other);
-    RayRef(trace.rays[other]).v[j] = ray;
-    SlotRef(trace.raySlots[other]).v[j] = path.slot;
+    sendOn(trace, path, ray);
 }
