@@ -100,6 +100,17 @@ public:
     }
 #endif
 
+    // Which outputs of a material count, the first first; without any of these the one for all renderers.
+#if PXR_VERSION < 2105
+    TfToken GetMaterialNetworkSelector() const final {
+        return TfToken("mtlx");
+    }
+#else
+    TfTokenVector GetMaterialRenderContexts() const final {
+        return {TfToken("hipr"), TfToken("mtlx")};
+    }
+#endif
+
 protected:
     RenderDelegateBase() = default;
     explicit RenderDelegateBase(HdRenderSettingsMap const& settings) : HdRenderDelegate(settings) {}
@@ -336,6 +347,15 @@ inline AssetBytes openAsset(std::string const& resolvedPath) {
 inline std::vector<unsigned char> readAsset(std::string const& path) {
     const AssetBytes asset = openAsset(std::string(ArGetResolver().Resolve(path)));
     return std::vector<unsigned char>(asset.data.get(), asset.data.get() + asset.size);
+}
+
+/// The path of an asset that is named in the asset with the resolved path `anchor`.
+inline std::string anchorAsset(std::string const& anchor, std::string const& asset) {
+#if PXR_VERSION < 2111
+    return ArGetResolver().AnchorRelativePath(anchor, asset);
+#else
+    return ArGetResolver().CreateIdentifier(asset, ArResolvedPath(anchor));
+#endif
 }
 
 /// The resolved form of an asset path, or an empty string.

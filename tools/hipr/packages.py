@@ -55,6 +55,7 @@ PACKAGES = (
     Package("openimageio-tools", "names the programs that OpenImageIO's CMake files refer to"),
     Package("libopencolorio-dev", "colour spaces and view transforms"),
     Package("libopenexr-dev", "headers that OpenImageIO's CMake files refer to"),
+    Package("libpugixml-dev", "reads MaterialX documents"),
     Package("zlib1g-dev", "inflates .spz files of splats"),
     Package("libglm-dev", "vectors and matrices"),
     Package("libcli11-dev", "hiprrecord's command line"),

@@ -92,6 +92,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(BadInput{"missing_texture", Material, "no_such_file.png", "blue", "green"},
                     BadInput{"corrupt_texture", Material, "broken.png", "blue", "green"},
                     BadInput{"cyclic_material", Material, "feed each other", "blue", "red"},
+                    BadInput{"broken_mtlx", "broken.mtlx:5", "no valid XML", "blue", "white"},
                     BadInput{"unknown_shader", Material, "NoSuchSurface", "blue", "white"}));
 
 INSTANTIATE_TEST_SUITE_P(Lights, BadInputTest,
