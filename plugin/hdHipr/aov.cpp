@@ -19,10 +19,13 @@ std::optional<hipr::AovRequest> aovRequest(TfToken const& name) {
         {HdAovTokens->cameraDepth, AovKind::CameraDepth},
         {HdAovTokens->normal, AovKind::Normal},
         {HdAovTokens->Neye, AovKind::Neye},
+        {HdAovTokens->Peye, AovKind::Peye},
+        {HdAovTokens->patchCoord, AovKind::PatchCoord},
         {HdAovTokens->primId, AovKind::PrimId},
         {HdAovTokens->instanceId, AovKind::InstanceId},
         {HdAovTokens->elementId, AovKind::ElementId},
         {TfToken("albedo"), AovKind::Albedo},
+        {TfToken("variance"), AovKind::Variance},
         {TfToken("sampleCount"), AovKind::SampleCount},
         {TfToken("hipr:priority"), AovKind::Priority},
         {TfToken("hipr:age"), AovKind::Age},
@@ -69,18 +72,22 @@ HdAovDescriptor aovDescriptor(TfToken const& name) {
     case AovKind::Priority:
         return HdAovDescriptor(HdFormatFloat32, false, VtValue(0.f));
     case AovKind::Albedo:
+    case AovKind::Variance:
         return HdAovDescriptor(HdFormatFloat32Vec3, true, VtValue(GfVec3f(0.f)));
     case AovKind::Normal:
     case AovKind::Neye:
     case AovKind::Primvar:
+    case AovKind::Peye:
+    case AovKind::PatchCoord:
         break;
     }
     return HdAovDescriptor(HdFormatFloat32Vec3, false, VtValue(GfVec3f(0.f)));
 }
 
 bool changesWithSamples(AovKind kind) {
-    return kind == AovKind::Color || kind == AovKind::Albedo || kind == AovKind::SampleCount ||
-           kind == AovKind::Priority || kind == AovKind::Age || kind == AovKind::Discovered;
+    return kind == AovKind::Color || kind == AovKind::Albedo || kind == AovKind::Variance ||
+           kind == AovKind::SampleCount || kind == AovKind::Priority || kind == AovKind::Age ||
+           kind == AovKind::Discovered;
 }
 
 } // namespace hdhipr

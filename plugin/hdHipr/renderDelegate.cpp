@@ -33,6 +33,7 @@ namespace {
 const char* const deviceKey = "hipr:device";
 const char* const everyBatchKey = "hipr:publishEveryBatch";
 const char* const sceneDumpKey = "hipr:sceneDump";
+const char* const dataWindowKey = "hipr:dataWindow";
 
 hipr::RendererOptions rendererOptions(HdRenderSettingsMap const& settings) {
     hipr::RendererOptions options;
@@ -197,7 +198,7 @@ bool HdHiprRenderDelegate::storeSetting(TfToken const& key, VtValue const& value
     }
     const SettingResult result = assignRenderSetting(_settings, key, value);
     if (result == SettingResult::Unknown) {
-        if (TfStringStartsWith(key.GetString(), "hipr:")) {
+        if (TfStringStartsWith(key.GetString(), "hipr:") && key != dataWindowKey) {
             warnOnce("", key == deviceKey ? "the device can be chosen only when the renderer is created"
                                           : "there is no render setting '" + key.GetString() + "'");
         }

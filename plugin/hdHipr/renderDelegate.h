@@ -42,16 +42,18 @@ public:
 
     /// Settings of the table restart the picture when, and only when, their value changes. Other keys are
     /// kept for GetRenderSetting and have no effect; unknown keys that begin with `hipr:` are reported.
-    /// Two keys are no settings but doors for recorders and tests: `hipr:publishEveryBatch` (bool; see
-    /// RenderLoop), and `hipr:sceneDump`, which reads as the text of hipr::Renderer::dumpScene().
+    /// Three keys are no settings but doors for recorders and tests: `hipr:publishEveryBatch` (bool; see
+    /// RenderLoop); `hipr:sceneDump`, which reads as the text of hipr::Renderer::dumpScene(); and
+    /// `hipr:dataWindow` (GfVec4f: xmin, ymin, xmax, ymax), the part of the camera's picture that fills the
+    /// buffers, in place of what the viewport says, for hosts whose Hydra has no framing.
     void SetRenderSetting(TfToken const& key, VtValue const& value) override;
     VtValue GetRenderSetting(TfToken const& key) const override;
     using HdRenderDelegate::GetRenderSetting;
     HdRenderSettingDescriptorList GetRenderSettingDescriptors() const override;
 
     /// percentDone (0..100), numCompletedSamples, totalClockTime (seconds), hipr:paths, hipr:rays,
-    /// hipr:device, peakMemory (bytes of this process) and hipr:memory:<kind> (bytes). hipr:pictures counts what
-    /// has been published to the buffers.
+    /// hipr:device, peakMemory (bytes of this process) and hipr:memory:<kind> (bytes). hipr:pictures counts
+    /// what has been published to the buffers.
     VtDictionary GetRenderStats() const override;
 
     bool IsPauseSupported() const override { return true; }

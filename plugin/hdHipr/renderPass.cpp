@@ -18,10 +18,10 @@ namespace {
 
 /// Lens and exposure only where the host says which camera it looks through; a free camera may have clip
 /// planes.
-hipr::CameraDesc cameraOf(HdRenderPassState const& state) {
+hipr::CameraDesc cameraOf(HdRenderPassState const& state, GfMatrix4d const& crop) {
     hipr::CameraDesc desc;
     desc.worldToView = toGlm(state.GetWorldToViewMatrix());
-    desc.projection = toGlm(state.GetProjectionMatrix());
+    desc.projection = toGlm(state.GetProjectionMatrix() * crop);
     if (auto const* camera = dynamic_cast<HdHiprCamera const*>(state.GetCamera())) {
         desc.lens = camera->lens();
         desc.exposure = camera->exposure();
@@ -34,6 +34,17 @@ hipr::CameraDesc cameraOf(HdRenderPassState const& state) {
         warnOnce("", "only the first " + std::to_string(hipr::MaxClipPlanes) + " clipping planes are used");
     }
     return desc;
+}
+
+/// Clip space of a part of the picture, from that of all of it.
+GfMatrix4d cropTo(GfVec4f const& window) {
+    GfMatrix4d crop(1.0);
+    for (int axis = 0; axis < 2; ++axis) {
+        const double low = window[axis], high = window[axis + 2];
+        crop[axis][axis] = 1.0 / (high - low);
+        crop[3][axis] = (1.0 - low - high) / (high - low);
+    }
+    return crop;
 }
 
 } // namespace
@@ -70,7 +81,7 @@ bool HdHiprRenderPass::settingOn(const char* name) const {
 
 void HdHiprRenderPass::_Execute(HdRenderPassStateSharedPtr const& state, TfTokenVector const& renderTags) {
     std::vector<AovTarget> targets;
-    int height = 0;
+    int width = 0, height = 0;
     for (HdRenderPassAovBinding const& binding : state->GetAovBindings()) {
         HdHiprRenderBuffer* buffer = bufferOf(binding);
         if (!buffer) {
@@ -79,6 +90,7 @@ void HdHiprRenderPass::_Execute(HdRenderPassStateSharedPtr const& state, TfToken
             continue;
         }
         targets.push_back({aovRequest(binding.aovName), buffer, buffer->allocation(), binding.clearValue});
+        width = std::max(width, int(buffer->GetWidth()));
         height = std::max(height, int(buffer->GetHeight()));
     }
     if (!_param.canRender()) {
@@ -96,8 +108,15 @@ void HdHiprRenderPass::_Execute(HdRenderPassStateSharedPtr const& state, TfToken
     warnOfCullStyle("", state->GetCullStyle());
 
     Frame frame;
-    frame.camera = cameraOf(*state);
-    frame.rect = renderRect(*state, height);
+    const VtValue dataWindow =
+        GetRenderIndex()->GetRenderDelegate()->GetRenderSetting(TfToken("hipr:dataWindow"));
+    if (dataWindow.IsHolding<GfVec4f>()) {
+        frame.camera = cameraOf(*state, cropTo(dataWindow.UncheckedGet<GfVec4f>()));
+        frame.rect = {0, 0, width, height};
+    } else {
+        frame.camera = cameraOf(*state, GfMatrix4d(1.0));
+        frame.rect = renderRect(*state, height);
+    }
     frame.targets = std::move(targets);
     frame.skyVisible =
         _param.hasDome() && settingOn("domeLightCameraVisibility") && settingOn("enableSceneLights");

@@ -94,18 +94,17 @@ void storeMatrix(const GfMatrix4d& matrix, float* out) {
 
 /// A picture that cannot fit would have the system end the whole process, or others, instead of an error.
 /// Each buffer is held by the renderer, twice by Hydra, and once for the file.
-void requireMemory(const HdRenderDelegate& delegate, const EngineOptions& options) {
+void requireMemory(const HdRenderDelegate& delegate, const EngineOptions& options, const DataWindow& window) {
     double pixelBytes = 0;
     for (const std::string& aov : options.aovs)
         pixelBytes += double(HdDataSizeOfFormat(delegate.GetDefaultAovDescriptor(TfToken(aov)).format));
-    const double needed = 4.0 * pixelBytes * options.width * options.height;
+    const double needed = 4.0 * pixelBytes * window.width * window.height;
     const double installed = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
     if (needed > installed)
         throw Failure(ExitRender,
                       TfStringPrintf("a picture of %d x %d pixels with these AOVs needs %.0f GiB of memory; "
                                      "this machine has %.0f GiB",
-                                     options.width, options.height, needed / (1 << 30),
-                                     installed / (1 << 30)));
+                                     window.width, window.height, needed / (1 << 30), installed / (1 << 30)));
 }
 
 } // namespace
@@ -122,7 +121,8 @@ struct Engine::Impl {
     std::vector<Aov> aovs;
     std::shared_ptr<RecordTask> task;
     HdEngine hydra;
-    int width = 0, height = 0;
+    int width = 0, height = 0; ///< of the buffers
+    PictureFraming framing;
 
     ~Impl();
     Aov makeAov(const std::string& name);
@@ -201,9 +201,10 @@ bool Engine::hasAov(const std::string& aov) const {
 }
 
 void Engine::populate(const UsdStageRefPtr& stage, const SdfPath& camera, const EngineOptions& options) {
-    requireMemory(*_impl->delegate, options);
-    _impl->width = options.width;
-    _impl->height = options.height;
+    const DataWindow window = options.window.value_or(DataWindow{0, 0, options.width, options.height});
+    requireMemory(*_impl->delegate, options, window);
+    _impl->width = window.width;
+    _impl->height = window.height;
     _impl->index.reset(HdRenderIndex::New(_impl->delegate.Get(), {}));
     if (!_impl->index) throw Failure(ExitRender, "Hydra does not accept the renderer");
 
@@ -225,9 +226,10 @@ void Engine::populate(const UsdStageRefPtr& stage, const SdfPath& camera, const 
         binding.clearValue = _impl->delegate->GetDefaultAovDescriptor(binding.aovName).clearValue;
         bindings.push_back(binding);
     }
-    _impl->task =
-        std::make_shared<RecordTask>(_impl->index.get(), camera, GfVec2i(options.width, options.height),
-                                     bindings, renderTags(options.purposes));
+    _impl->framing = {GfVec2i(options.width, options.height), options.pixelAspect, window};
+    if (windowPolicy(options.conformPolicy) == CameraUtilDontConform) _impl->framing.pixelAspect.reset();
+    _impl->task = std::make_shared<RecordTask>(_impl->index.get(), camera, _impl->framing, bindings,
+                                               renderTags(options.purposes));
 }
 
 void Engine::setFrame(double frame) {
@@ -249,6 +251,11 @@ Picture Engine::read() {
     Picture picture;
     picture.width = _impl->width;
     picture.height = _impl->height;
+    picture.info.x = _impl->framing.window.x;
+    picture.info.y = _impl->framing.window.y;
+    picture.info.fullWidth = _impl->framing.size[0];
+    picture.info.fullHeight = _impl->framing.size[1];
+    picture.info.pixelAspect = _impl->task->pixelAspect();
     for (const Impl::Aov& aov : _impl->aovs)
         picture.layers.push_back(_impl->readLayer(aov));
     storeMatrix(_impl->task->worldToView(), picture.info.worldToCamera);
@@ -281,7 +288,7 @@ std::vector<std::string> listRenderers() {
 
 std::vector<std::string> listAovs(const Engine& engine) {
     TfTokenVector candidates = HdAovTokens->allTokens;
-    candidates.insert(candidates.end(), {TfToken("albedo"), TfToken("sampleCount")});
+    candidates.insert(candidates.end(), {TfToken("albedo"), TfToken("variance"), TfToken("sampleCount")});
     std::vector<std::string> names;
     for (const TfToken& token : candidates)
         if (token.GetString().back() != ':' && engine.hasAov(token.GetString()))

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "plugin/record/dataWindow.h"
 #include "plugin/record/images.h"
 #include "plugin/record/stage.h"
 #include "pxr/base/gf/matrix4d.h"
@@ -19,8 +21,10 @@ struct EngineOptions {
     int width = 0, height = 0;
     std::vector<std::string> aovs;     ///< Hydra AOV names; each must pass Engine::hasAov()
     std::vector<std::string> purposes; ///< "default", "render", "proxy", "guide"
-    std::string conformPolicy;         ///< UsdRender's aspectRatioConformPolicy; empty: adjustApertureWidth
-    int refineLevel = 0;               ///< 0 is the control mesh; Hydra allows up to 8
+    std::string conformPolicy = {};    ///< UsdRender's aspectRatioConformPolicy; empty: adjustApertureWidth
+    float pixelAspect = 1;             ///< width over height of a pixel
+    std::optional<DataWindow> window = {}; ///< what to render of width x height pixels; all of it without one
+    int refineLevel = 0;                   ///< 0 is the control mesh; Hydra allows up to 8
 };
 
 /// Owns the render delegate, render index, scene delegate and AOV buffers. Use from one thread.

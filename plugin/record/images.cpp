@@ -42,6 +42,11 @@ OIIO::ImageSpec exrSpec(const Picture& picture) {
             spec.channelformats.push_back(layer.integer ? OIIO::TypeUInt : OIIO::TypeFloat);
         }
     const PictureInfo& info = picture.info;
+    spec.x = info.x;
+    spec.y = info.y;
+    spec.full_width = info.fullWidth;
+    spec.full_height = info.fullHeight;
+    spec.attribute("PixelAspectRatio", info.pixelAspect);
     spec.attribute("compression", "zip");
     spec.attribute("oiio:ColorSpace", "Linear");
     spec.attribute("Software", info.software);

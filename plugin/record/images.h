@@ -17,7 +17,7 @@ struct Layer {
     int components = 0;
     bool integer = false;
     std::vector<uint32_t> words; ///< float bits, or two's complement ints: width * height * components
-    std::string name = {}; ///< of its channels in an EXR; empty: that of the AOV
+    std::string name = {};       ///< of its channels in an EXR; empty: that of the AOV
     const float* floats() const { return reinterpret_cast<const float*>(words.data()); }
 };
 
@@ -28,6 +28,9 @@ struct PictureInfo {
     float worldToCamera[16] = {}, worldToNdc[16] = {}; ///< row vectors, as OpenEXR and OpenUSD write them
     long samples = 0;
     double seconds = 0;
+    int x = 0, y = 0; ///< where the pixels begin in the full picture, from its top left
+    int fullWidth = 0, fullHeight = 0;
+    float pixelAspect = 1; ///< width over height of a pixel
 };
 
 struct Picture {

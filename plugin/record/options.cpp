@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "plugin/record/dataWindow.h"
 #include "plugin/record/failure.h"
 #include "plugin/record/frames.h"
 #include "plugin/record/images.h"
@@ -33,7 +34,7 @@ Exit codes: 0 done, 1 usage (also an edit that cannot be done), 2 stage cannot b
 cannot be written, 5 rendering failed, 130 interrupted (what was there has been written).)";
 
 struct RawOptions {
-    std::string size, frames, complexity = "low", aovs, purposes;
+    std::string size, crop, frames, complexity = "low", aovs, purposes;
     std::vector<std::string> settings, masks;
     bool quiet = false, verbose = false;
 };
@@ -135,6 +136,11 @@ void addPictureOptions(CLI::App& app, Options& options, RawOptions& raw) {
                    "WIDTHxHEIGHT in pixels, or WIDTH with the camera's aspect ratio [960]")
         ->type_name("SIZE")
         ->group("Picture");
+    app.add_option("--crop", raw.crop,
+                   "Render only this part: XMIN,YMIN,XMAX,YMAX, where 0,0 is the bottom left of the picture "
+                   "and 1,1 its top right; numbers beyond are overscan. EXR files say where it belongs")
+        ->type_name("WINDOW")
+        ->group("Picture");
     app.add_option("--aovs", raw.aovs, "AOVs to render, e.g. color,depth,normal,primId,primvars:st [color]")
         ->type_name("LIST")
         ->group("Picture");
@@ -234,6 +240,7 @@ void checkOutputs(const Options& options) {
 
 void interpret(const RawOptions& raw, Options& options) {
     if (!raw.size.empty()) parseSize(raw.size, options);
+    if (!raw.crop.empty()) options.crop = parseDataWindow(raw.crop);
     if (!raw.frames.empty()) options.frames = parseFrames(raw.frames);
     if (!raw.aovs.empty()) options.aovs = splitCommas(raw.aovs);
     if (options.aovs.empty()) throw Failure(ExitUsage, "--aovs: no AOV given");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "plugin/record/diagnostics.h"
+#include "pxr/base/gf/vec4f.h"
 
 namespace hipr::record {
 
@@ -28,9 +29,10 @@ struct Options {
     std::string scene;
     std::vector<std::string> outputs; ///< may hold frame placeholders
 
-    std::string camera;         ///< name, path, "auto", or empty for the default
-    int width = 0, height = 0;  ///< 0: from the camera
-    std::vector<double> frames; ///< empty: the stage's first
+    std::string camera;                  ///< name, path, "auto", or empty for the default
+    int width = 0, height = 0;           ///< 0: from the camera
+    std::optional<PXR_NS::GfVec4f> crop; ///< the part to render; see dataWindowOf()
+    std::vector<double> frames;          ///< empty: the stage's first
     std::vector<std::string> aovs{"color"};
     std::vector<std::string> purposes{"default", "render"}; ///< always holds "default"
     std::vector<std::string> mask;
@@ -48,6 +50,7 @@ struct Options {
     /// From render settings, never from the command line.
     std::vector<ProductFile> products;
     std::string conformPolicy; ///< aspectRatioConformPolicy; empty: adjustApertureWidth
+    float pixelAspect = 1;     ///< width over height of a pixel
     std::vector<std::pair<std::string, std::string>> sceneSettings; ///< those that the renderer knows count
     bool aovsGiven = false, purposesGiven = false;                  ///< on the command line
 

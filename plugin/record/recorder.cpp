@@ -6,6 +6,7 @@
 #include <thread>
 #include <unistd.h>
 
+#include "plugin/record/dataWindow.h"
 #include "plugin/record/editFrames.h"
 #include "plugin/record/edits.h"
 #include "plugin/record/engine.h"
@@ -193,9 +194,12 @@ void Recording::open() {
     if (_options.verbosity != Verbosity::Quiet && !_options.onlyDump())
         std::fprintf(stderr, "recording %s with %s: %d x %d, camera %s\n", _report.scene.c_str(),
                      _report.renderer.c_str(), _view.width, _view.height, _report.camera.c_str());
-    _engine.populate(_stage, _view.camera,
-                     {_view.width, _view.height, _options.aovs, _options.purposes, _options.conformPolicy,
-                      _options.refineLevel});
+    EngineOptions engine{_view.width, _view.height, _options.aovs, _options.purposes};
+    engine.conformPolicy = _options.conformPolicy;
+    engine.pixelAspect = _options.pixelAspect;
+    engine.refineLevel = _options.refineLevel;
+    if (_options.crop) engine.window = dataWindowOf(*_options.crop, _view.width, _view.height);
+    _engine.populate(_stage, _view.camera, engine);
 }
 
 void Recording::recordFrames() {

@@ -1,6 +1,7 @@
 #include "plugin/record/renderProducts.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "plugin/record/diagnostics.h"
 #include "plugin/record/failure.h"
@@ -23,10 +24,12 @@ struct ProductGroup {
     std::string camera; ///< prim path, empty: none is named
     int width = 0, height = 0;
     std::string conformPolicy;
+    GfVec4f dataWindow = {0, 0, 1, 1};
+    float pixelAspect = 1;
     std::vector<ProductFile> files;
     bool sameView(const ProductGroup& o) const {
         return camera == o.camera && width == o.width && height == o.height &&
-               conformPolicy == o.conformPolicy;
+               conformPolicy == o.conformPolicy && dataWindow == o.dataWindow && pixelAspect == o.pixelAspect;
     }
 };
 
@@ -97,13 +100,12 @@ ProductGroup Reader::view(const UsdRenderSettingsBase& product) const {
         stronger(product.GetAspectRatioConformPolicyAttr(), _settings.GetAspectRatioConformPolicyAttr()));
 
     const std::string path = product.GetPath().GetString();
-    GfVec4f window(0, 0, 1, 1);
-    stronger(product.GetDataWindowNDCAttr(), _settings.GetDataWindowNDCAttr()).Get(&window);
-    if (window != GfVec4f(0, 0, 1, 1))
-        printWarning(path + ": dataWindowNDC is not supported; the whole picture is rendered");
-    float pixelAspect = 1;
-    stronger(product.GetPixelAspectRatioAttr(), _settings.GetPixelAspectRatioAttr()).Get(&pixelAspect);
-    if (pixelAspect != 1) printWarning(path + ": pixelAspectRatio is not supported; pixels are square");
+    stronger(product.GetDataWindowNDCAttr(), _settings.GetDataWindowNDCAttr()).Get(&group.dataWindow);
+    stronger(product.GetPixelAspectRatioAttr(), _settings.GetPixelAspectRatioAttr()).Get(&group.pixelAspect);
+    if (!(group.pixelAspect > 0) || !std::isfinite(group.pixelAspect)) {
+        printWarning(path + ": pixelAspectRatio is no positive number; pixels are square");
+        group.pixelAspect = 1;
+    }
     return group;
 }
 
@@ -190,7 +192,9 @@ void look(Options& options, const ProductGroup& view) {
         options.width = view.width;
         options.height = view.height;
     }
+    if (!options.crop && view.dataWindow != GfVec4f(0, 0, 1, 1)) options.crop = view.dataWindow;
     options.conformPolicy = view.conformPolicy;
+    options.pixelAspect = view.pixelAspect;
 }
 
 /// One recording writes these files.

@@ -17,7 +17,7 @@ struct Recordings {
 /// What render settings make of the command line: options that name a RenderSettings prim, or no output,
 /// become those of one recording for each camera and size of its products; others stay as they are. What is
 /// on the command line wins. Without an output of its own the RenderSettings prim is that which the stage
-/// names. Product types, data windows and pixel aspects that the recorder cannot do are said. Throws Failure
+/// names. Product types that the recorder cannot do are said. Throws Failure
 /// with ExitUsage when there is nothing to render.
 Recordings recordingsOf(const Options& options);
 

@@ -10,6 +10,9 @@ AovFormat aovFormat(AovKind kind) {
     case AovKind::Normal:
     case AovKind::Neye:
     case AovKind::Primvar:
+    case AovKind::Peye:
+    case AovKind::PatchCoord:
+    case AovKind::Variance:
         return {3, false};
     case AovKind::Depth:
     case AovKind::CameraDepth:

@@ -7,8 +7,8 @@
 namespace hipr {
 
 /// Colours are scene-linear and unclamped. Ids are -1 where no surface is seen. "First hit" AOVs come from one ray
-/// through the pixel centre; color and albedo are means over all samples of the pixel. The last four tell of
-/// HiPR's tiles.
+/// through the pixel centre; color and albedo are means over all samples of the pixel. SampleCount, Priority, Age and
+/// Discovered tell of HiPR's tiles.
 enum class AovKind : uint32_t {
     Color,       ///< float4, premultiplied alpha
     Albedo,      ///< float3
@@ -24,6 +24,9 @@ enum class AovKind : uint32_t {
     Priority,    ///< float, by which tiles are ordered: mode delta, the change of radiance; mode paper, see docs/hipr.md
     Age,         ///< int, edits since the pixel's picture was rendered; 0: it is current
     Discovered,  ///< int, 1 where the last edit was found to show, and 0
+    Peye,        ///< float3, view-space position, 0 where nothing is seen
+    PatchCoord,  ///< float3, barycentric coordinates (u, v, 0) in the triangle that is seen
+    Variance,    ///< float3, that of color's channels as an estimate: sample variance / samples; 0 below 2 samples
 };
 
 struct AovRequest {

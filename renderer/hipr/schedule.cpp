@@ -17,8 +17,9 @@ constexpr double WideChange = 0.5;
 } // namespace
 
 void TilePasses::restart(std::vector<uint32_t> tiles, const TileGrid& grid,
-                         const std::vector<TileState>& states) {
+                         const std::vector<TileState>& states, uint32_t pilot) {
     *this = {};
+    _pilot = pilot;
     _tiles = std::move(tiles);
     _at.done = _tiles.empty() ? 0 : states[_tiles[0]].samples;
     for (uint32_t tile : _tiles) {
@@ -32,21 +33,44 @@ void TilePasses::begin() {
     _any = _wrapped = false;
 }
 
-void TilePasses::startPass(uint32_t maxPaths, uint32_t samples) {
-    const uint32_t fitting = uint32_t(std::max<uint64_t>(1, maxPaths / _pixels));
-    _ahead.level = std::min(samples, _ahead.done + std::min(fitting, std::max(1u, _ahead.done)));
+/// Samples after which a tile rests, as far as is known.
+uint32_t TilePasses::limit(const TileState& state, uint32_t samples) const {
+    if (_pilot == 0) return samples;
+    return state.samples < _pilot ? _pilot : std::min(samples, _pilot + state.wanted);
+}
+
+/// Samples a tile has after the pass under way.
+uint32_t TilePasses::passEnd(const TileState& state, uint32_t samples) const {
+    const bool replacesPilot = _pilot > 0 && state.samples == _pilot;
+    return std::min(limit(state, samples), replacesPilot ? std::max(_ahead.level, 2 * _pilot) : _ahead.level);
+}
+
+void TilePasses::startPass(uint32_t maxPaths, uint32_t samples, const TileGrid& grid,
+                           const std::vector<TileState>& states) {
+    uint64_t pixels = _pixels;
+    if (_pilot > 0) { // many tiles may rest already
+        pixels = 0;
+        for (uint32_t tile : _tiles)
+            if (states[tile].samples < _pilot || limit(states[tile], samples) > _ahead.done)
+                pixels += grid.pixels(tile);
+    }
+    const uint32_t fitting =
+        pixels == 0 ? samples : uint32_t(std::clamp<uint64_t>(maxPaths / pixels, 1, samples));
+    const uint32_t added = pixels == 0 ? fitting : std::min(fitting, std::max(1u, _ahead.done));
+    _ahead.level = std::min(samples, _ahead.done + added);
 }
 
 bool TilePasses::append(std::vector<gpu::TileWork>& batch, uint32_t& paths, uint32_t maxPaths,
                         uint32_t samples, const TileGrid& grid, const std::vector<TileState>& states) {
     while (!_tiles.empty() && _ahead.done < samples) {
-        if (_ahead.next == 0) startPass(maxPaths, samples);
+        if (_ahead.next == 0) startPass(maxPaths, samples, grid, states);
         for (; _ahead.next < _tiles.size(); ++_ahead.next) {
             if (_wrapped && _ahead.next == _first) return false; // from here on they are in the batch
             const uint32_t tile = _tiles[_ahead.next], has = states[tile].samples;
-            if (has >= _ahead.level) continue;
+            const uint32_t end = passEnd(states[tile], samples);
+            if (has >= end) continue;
             const TileRect r = grid.rect(tile);
-            const uint32_t count = _ahead.level - has, added = r.width * r.height * count;
+            const uint32_t count = end - has, added = r.width * r.height * count;
             if (!batch.empty() && paths + added > maxPaths) return false;
             if (!_any) _first = _ahead.next;
             _any = true;
@@ -62,8 +86,10 @@ bool TilePasses::append(std::vector<gpu::TileWork>& batch, uint32_t& paths, uint
 
 void TileSchedule::reset(const TileGrid& grid) {
     const bool keepsPictures = _keepsPictures;
+    const uint32_t pilot = _pilot;
     *this = {};
     _keepsPictures = keepsPictures;
+    _pilot = pilot;
     _grid = grid;
     _states.assign(grid.count(), {});
     _neverShown = grid.count();
@@ -142,8 +168,8 @@ void TileSchedule::sort(bool everything) {
         front.insert(front.end(), rest.begin(), rest.end());
         rest.clear();
     }
-    _front.restart(std::move(front), _grid, _states);
-    _rest.restart(std::move(rest), _grid, _states);
+    _front.restart(std::move(front), _grid, _states, _pilot);
+    _rest.restart(std::move(rest), _grid, _states, _pilot);
 }
 
 void TileSchedule::measured(uint32_t tile, float change, float noise) {
@@ -163,7 +189,8 @@ void TileSchedule::compared(uint32_t tile, float noise) {
 /// Whether the old mean is nearer to the truth than that of the new samples, as far as is known: the noise
 /// of a mean falls with the root of its samples, the old one is besides wrong by the change.
 bool TileSchedule::keepsOld(const TileState& state) const {
-    if (!state.measured || state.samples >= std::min(state.shown, _samples)) return false;
+    const bool complete = _pilot > 0 && state.samples >= _pilot && state.samples >= _pilot + state.wanted;
+    if (!state.measured || complete || state.samples >= std::min(state.shown, _samples)) return false;
     const float change = ChangeThroughNoise * state.change, variance = state.noise * state.noise;
     return variance / float(state.samples) > change * change + variance / float(state.shown);
 }
@@ -174,10 +201,14 @@ const std::vector<gpu::TileWork>& TileSchedule::next(uint32_t maxPaths, uint32_t
     _front.begin();
     _rest.begin();
     _owedAfter = _owed;
-    _samples = samples;
+    _samples = samples + _pilot;
     const uint32_t first = std::min(1u, samples);
     if (!_front.complete(first)) appendFloor(maxPaths, first);
     appendInOrder(maxPaths, first);
+    if (_work.empty()) { // the passes that are left have nothing to do
+        _front.accept();
+        _rest.accept();
+    }
     for (gpu::TileWork& work : _work) {
         TileState& state = _states[_grid.at(work.x, work.y)];
         if (work.firstSample == 0) state.foreseen = state.priority > 0.f;
@@ -240,8 +271,26 @@ void TileSchedule::advance() {
 }
 
 uint32_t TileSchedule::samplesDone() const {
-    if (_front.tiles().empty()) return _rest.done();
-    return _rest.tiles().empty() ? _front.done() : std::min(_front.done(), _rest.done());
+    uint32_t done = std::min(_front.done(), _rest.done());
+    if (_front.tiles().empty()) done = _rest.done();
+    if (_rest.tiles().empty()) done = _front.done();
+    return done > _pilot ? done - _pilot : done;
+}
+
+uint32_t TileSchedule::samplesInMean(uint32_t tile) const {
+    const uint32_t samples = _states[tile].samples;
+    return samples > _pilot ? samples - _pilot : samples;
+}
+
+uint64_t TileSchedule::pathsWanted(uint32_t samples) const {
+    if (_pilot == 0) return uint64_t(_grid.width) * _grid.height * samples;
+    uint64_t paths = 0;
+    for (uint32_t tile = 0; tile < _states.size(); ++tile) {
+        const bool known = _states[tile].samples >= _pilot;
+        paths += uint64_t(grid().pixels(tile)) *
+                 (_pilot + (known ? std::min(samples, _states[tile].wanted) : samples));
+    }
+    return paths;
 }
 
 } // namespace hipr

@@ -20,15 +20,20 @@ struct TileState {
     bool foreseen = false;  ///< was discovered when its first sample was handed out
     float change = 0.f;     ///< of the first samples since the picture on display, edit by edit, summed up
     float noise = 0.f;      ///< how far the last first sample was from the mean on display
+    uint32_t wanted = 0;    ///< samples after the pilot, once that is rendered
     bool keepsOld = false;  ///< on display is the older picture, which is the better one so far
 };
 
 /// Brings a list of tiles to more and more samples, in order, pass after pass. The first pass takes one
 /// sample a pixel, so that a picture is there soon; later passes take as many as a batch has room for, at
 /// most doubling what is there. A batch may take the end of a pass and the beginning of the next one.
+///
+/// With a pilot, samples are counted with those of the pilot, and each tile stops where TileState::wanted
+/// says. The first samples after the pilot, which replace it, are as many: nothing gets noisier on display.
 class TilePasses {
 public:
-    void restart(std::vector<uint32_t> tiles, const TileGrid& grid, const std::vector<TileState>& states);
+    void restart(std::vector<uint32_t> tiles, const TileGrid& grid, const std::vector<TileState>& states,
+                 uint32_t pilot);
 
     /// Whether every tile has `samples` samples.
     bool complete(uint32_t samples) const { return _tiles.empty() || _at.done >= samples; }
@@ -51,10 +56,14 @@ private:
         uint32_t done = 0, level = 1; ///< samples before and after the pass under way
         uint32_t next = 0;            ///< tile of the pass under way
     };
-    void startPass(uint32_t maxPaths, uint32_t samples);
+    void startPass(uint32_t maxPaths, uint32_t samples, const TileGrid& grid,
+                   const std::vector<TileState>& states);
+    uint32_t limit(const TileState& state, uint32_t samples) const;
+    uint32_t passEnd(const TileState& state, uint32_t samples) const;
 
     std::vector<uint32_t> _tiles;
     uint64_t _pixels = 0;
+    uint32_t _pilot = 0;
     Cursor _at, _ahead;    ///< behind what is rendered, and behind what is in the batch
     uint32_t _first = 0;   ///< position of the batch's first tile
     bool _any = false;     ///< there is one
@@ -110,6 +119,15 @@ public:
     /// Orders the tiles. `everything`: the undiscovered ones go behind the discovered ones in the same list,
     /// because the edit shows nearly everywhere.
     void sort(bool everything);
+    /// Adaptive sampling: the first `samples` samples of every tile only tell how many more it wants, and are
+    /// not among those that next() and samplesDone() count. 0: none. Takes effect with reset() or
+    /// invalidate(), which must follow.
+    void setPilot(uint32_t samples) { _pilot = samples; }
+    uint32_t pilot() const { return _pilot; }
+    /// A tile whose pilot is complete wants that many samples, no less than the pilot has. Between next() and
+    /// advance() of the work that completes the pilot.
+    void want(uint32_t tile, uint32_t samples) { _states[tile].wanted = std::max(samples, _pilot); }
+
     /// Share of the work that goes to undiscovered tiles without a new sample, 0..1.
     void setFloor(float share) { _floor = share; }
 
@@ -123,8 +141,13 @@ public:
     const std::vector<TileState>& tiles() const { return _states; }
     /// Slots the work of the last next() fills.
     uint32_t pathCount() const { return _paths; }
-    /// Samples that every pixel has.
+    /// Samples that every pixel has, or, with a pilot, has or does not want; the pilot's own until they are
+    /// replaced. Those asked for when all is done.
     uint32_t samplesDone() const;
+    /// Samples in the mean of a tile that shows the current scene.
+    uint32_t samplesInMean(uint32_t tile) const;
+    /// Paths of the current scene in all, as far as it is known what tiles want.
+    uint64_t pathsWanted(uint32_t samples) const;
     /// Samples of all pixels of the current scene.
     uint64_t pathsDone() const { return _pathsDone; }
     /// Whether every tile has shown some picture.
@@ -145,7 +168,8 @@ private:
     std::vector<TileState> _states;
     TilePasses _front, _rest;
     float _floor = 0.125f;
-    uint32_t _samples = 0; ///< wanted by the last next()
+    uint32_t _pilot = 0;
+    uint32_t _samples = 0; ///< wanted by the last next(), with the pilot
     double _owed = 0;      ///< paths the floor is behind with; below 0: what the discovered tiles have ahead
     uint32_t _neverShown = 0, _discovered = 0;
     bool _everything = false, _unsorted = false, _keepsPictures = true;

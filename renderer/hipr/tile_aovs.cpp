@@ -5,11 +5,12 @@
 namespace hipr {
 namespace {
 
-uint32_t wordOf(AovKind kind, const TileState& tile) {
+uint32_t wordOf(AovKind kind, const TileSchedule& schedule, uint32_t index) {
+    const TileState& tile = schedule.tiles()[index];
     uint32_t word = 0;
     switch (kind) {
     case AovKind::SampleCount:
-        return tile.keepsOld ? 0 : tile.samples;
+        return tile.keepsOld ? 0 : schedule.samplesInMean(index);
     case AovKind::Age:
         return tile.shown ? tile.age : uint32_t(-1);
     case AovKind::Discovered:
@@ -33,7 +34,7 @@ void fillTileAov(AovKind kind, const TileSchedule& schedule, uint32_t* dst) {
     const TileGrid& grid = schedule.grid();
     for (uint32_t tile = 0; tile < grid.count(); ++tile) {
         const TileRect r = grid.rect(tile);
-        const uint32_t word = wordOf(kind, schedule.tiles()[tile]);
+        const uint32_t word = wordOf(kind, schedule, tile);
         for (uint32_t y = r.y; y < r.y + r.height; ++y)
             std::fill_n(dst + size_t(y) * grid.width + r.x, r.width, word);
     }

@@ -139,19 +139,20 @@ float EditScheduler::changeScale() const {
 }
 
 /// Where new samples show a change, it goes on next door: tiles around are next.
-void EditScheduler::measured(const std::vector<gpu::TileWork>& tiles) {
+void EditScheduler::measured(const std::vector<gpu::TileWork>& tiles,
+                             const std::vector<gpu::TileChange>& changes) {
     if (_phase != Phase::Follow) return;
     for (size_t i = 0; i < tiles.size(); ++i) {
         if (tiles[i].firstSample > 0) continue;
         const uint32_t tile = _schedule.grid().at(tiles[i].x, tiles[i].y);
         const float steps = float(tiles[i].width * tiles[i].height) * StepsPerRadiance;
-        const float noise = float(_changes[i].noise) / steps * _radiance;
+        const float noise = float(changes[i].noise) / steps * _radiance;
         if (_moved) {
             _schedule.compared(tile, noise);
             continue;
         }
         if (!_schedule.tiles()[tile].comparable) continue;
-        const float change = float(_changes[i].change) / steps; // in mean radiances
+        const float change = float(changes[i].change) / steps; // in mean radiances
         _schedule.measured(tile, change * _radiance, noise);
         if (change < LeastChange) continue;
         forNeighbours(_schedule.grid(), tile, [&](uint32_t neighbour) {

@@ -57,12 +57,11 @@ public:
     /// After a batch of samples: `done`, or abandoned.
     void traced(bool done);
 
-    /// Delta mode: what batches of samples change is measured. For gpu::TraceRecord::changeScale, and where
-    /// the changes go; 0 and null when nobody asks for them.
+    /// Delta mode: what batches of samples change is measured. For gpu::TraceRecord::changeScale; 0 when
+    /// nobody asks for it.
     float changeScale() const;
-    std::vector<gpu::TileChange>* changes() { return _phase == Phase::Follow ? &_changes : nullptr; }
-    /// What changes() holds is of these tiles; before the schedule goes on.
-    void measured(const std::vector<gpu::TileWork>& tiles);
+    /// What a batch changed in its tiles; before the schedule goes on.
+    void measured(const std::vector<gpu::TileWork>& tiles, const std::vector<gpu::TileChange>& changes);
 
     uint64_t scoutPaths() const { return _survey.pathsTraced(); }
 
@@ -91,7 +90,6 @@ private:
     gpu::CameraRecord _camera{};
     Survey _survey;
     std::vector<gpu::ScoutResult> _scoutResults;
-    std::vector<gpu::TileChange> _changes;
     ChangedElements _changed; ///< since tiles were last marked active
     std::vector<uint32_t> _active;
     std::vector<uint64_t> _weights;

@@ -12,7 +12,7 @@ constexpr uint32_t MaxSide = 65535;        // PathState::pixel packs both coordi
 constexpr uint64_t MaxPixels = 1ull << 30; // kernels count the words of an AOV in 32 bits
 
 bool isSum(AovKind kind) {
-    return kind == AovKind::Color || kind == AovKind::Albedo;
+    return kind == AovKind::Color || kind == AovKind::Albedo || kind == AovKind::Variance;
 }
 
 /// The word an AOV holds where nothing is seen.
@@ -47,7 +47,7 @@ void FilmBuffers::setDesc(const FilmDesc& desc) {
 void FilmBuffers::clear() {
     _width = _height = 0;
     _sums = {}, _oldPicture = {}, _firstSamples = {}, _visibility = {}, _previousHits = {}, _depths = {},
-    _targets = {};
+    _targets = {}, _spreads = {};
     _carried = {}, _seen = {}, _seenAfter = {}, _lists = {};
     _firstHits.clear();
     _hasPrevious = false;
@@ -63,6 +63,7 @@ void FilmBuffers::refuse(const std::string& reason) {
 void FilmBuffers::allocate() {
     _sums = filled(pixels() * sizeof(gpu::FilmPixel), 0);
     createPictures();
+    createSpreads();
     _firstSamples = _device.createBuffer(pixels() * sizeof(glm::vec3), MemoryUse::Device, "Film");
     std::vector<gpu::AovTarget> targets;
     for (const AovRequest& request : _desc.aovs) {
@@ -111,6 +112,20 @@ void FilmBuffers::createPictures() {
     _lists = create(gpu::CARRIED_LISTS * sizeof(uint32_t));
 }
 
+void FilmBuffers::createSpreads() {
+    const bool wanted = pixels() > 0 && (_keepsSpreads || holds({AovKind::Variance, {}}));
+    if (!wanted)
+        _spreads = {};
+    else if (!_spreads)
+        _spreads = filled(pixels() * sizeof(glm::vec3), 0);
+}
+
+void FilmBuffers::keepSpreads(bool keep) {
+    if (keep == _keepsSpreads) return;
+    _keepsSpreads = keep;
+    createSpreads();
+}
+
 void FilmBuffers::keepPictures(bool keep) {
     if (keep == _keepsPictures) return;
     _keepsPictures = keep;
@@ -153,6 +168,7 @@ void FilmBuffers::describe(gpu::TraceRecord& record) const {
     record.film = _sums ? _sums.address() : 0;
     record.oldPicture = _oldPicture ? _oldPicture.address() : 0;
     record.firstSamples = _firstSamples ? _firstSamples.address() : 0;
+    record.spreads = _spreads ? _spreads.address() : 0;
     record.seen = _seen ? _seen.address() : 0;
     record.visibility = _visibility ? _visibility.address() : 0;
     record.opaqueDepths = depths();
@@ -174,6 +190,7 @@ bool FilmBuffers::read(const AovRequest& aov, const TileSchedule& schedule, void
         readMeans(&gpu::FilmPixel::color, &gpu::OldPixel::color, schedule, static_cast<float*>(dst));
     if (aov.kind == AovKind::Albedo)
         readMeans(&gpu::FilmPixel::albedo, &gpu::OldPixel::albedo, schedule, static_cast<float*>(dst));
+    if (aov.kind == AovKind::Variance) readVariance(static_cast<float*>(dst));
     for (const FirstHitAov& firstHit : _firstHits)
         if (firstHit.request == aov) _device.download(firstHit.values, dst, words * sizeof(uint32_t));
     return true;
@@ -185,6 +202,18 @@ template <class T> const T* FilmBuffers::hostCopy(const Buffer& buffer, std::vec
     copy.resize(pixels());
     _device.download(buffer, copy.data(), copy.size() * sizeof(T));
     return copy.data();
+}
+
+/// Of the samples of the current scene, whatever is on display.
+void FilmBuffers::readVariance(float* dst) const {
+    std::vector<gpu::FilmPixel> sumCopy;
+    const gpu::FilmPixel* sums = hostCopy(_sums, sumCopy);
+    _device.download(_spreads, dst, pixels() * sizeof(glm::vec3));
+    for (size_t i = 0; i < pixels(); ++i, dst += 3) {
+        const float n = float(sums[i].count), weight = n > 1.f ? 1.f / (n * (n - 1.f)) : 0.f;
+        for (int c = 0; c < 3; ++c)
+            dst[c] *= weight;
+    }
 }
 
 /// What is on display, of one member of the pixels.

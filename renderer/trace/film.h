@@ -55,6 +55,10 @@ public:
 
     void describe(gpu::TraceRecord& record) const;
 
+    /// Whether what samples differ from their mean by is summed up although no AOV asks for it; takes effect
+    /// with the next first samples.
+    void keepSpreads(bool keep);
+
     bool holds(const AovRequest& aov) const;
     /// See Renderer::readAov(); for AOVs that are not of tiles (renderer/hipr/tile_aovs.h).
     bool read(const AovRequest& aov, const TileSchedule& schedule, void* dst, size_t words) const;
@@ -74,14 +78,17 @@ private:
     template <class T> const T* hostCopy(const Buffer& buffer, std::vector<T>& copy) const;
     void createHits();
     void createPictures();
+    void createSpreads();
+    void readVariance(float* dst) const;
 
     Device& _device;
     NameTable& _names;
     FilmDesc _desc; ///< as asked for
     uint32_t _width = 0, _height = 0;
-    Buffer _sums, _oldPicture, _firstSamples, _visibility, _previousHits, _depths, _targets;
+    Buffer _sums, _oldPicture, _firstSamples, _visibility, _previousHits, _depths, _targets, _spreads;
     Buffer _carried, _seen, _seenAfter, _lists;
-    bool _keepsHits = false, _keepsDepths = false, _hasPrevious = false, _keepsPictures = false;
+    bool _keepsHits = false, _keepsDepths = false, _hasPrevious = false, _keepsPictures = false,
+         _keepsSpreads = false;
     std::vector<FirstHitAov> _firstHits;
 };
 

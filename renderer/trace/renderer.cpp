@@ -1,7 +1,9 @@
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <limits>
 
 #include "renderer/hipr/tile_aovs.h"
 #include "renderer/scene/camera.h"
@@ -35,6 +37,13 @@ uint32_t choiceIndex(const char* setting, const std::string& value) {
 constexpr double NarrowEdit = 0.5, EditBatchShare = 1.0 / 32;
 constexpr uint32_t SmallestEditBatch = 2048, EditBatchDoublings = 5;
 
+/// Adaptive sampling: samples that tell how many more a tile needs. Those of all its pixels together make a
+/// good estimate.
+constexpr uint32_t PilotSamples = 8;
+constexpr double MostSamples = 1 << 30;
+/// On display, errors of darker pixels than this count as if they were as bright; 1 is white.
+constexpr float DarkestRadiance = 0.1f;
+
 double secondsSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -49,7 +58,18 @@ bool lensChanged(const std::optional<CameraDesc>& before, const std::optional<Ca
     return before && now && !before->sameSamples(*now);
 }
 
+/// Whether adaptive sampling sees another picture.
+bool exposureChanged(const std::optional<CameraDesc>& before, const std::optional<CameraDesc>& now) {
+    return before && now && before->exposure != now->exposure;
+}
+
 } // namespace
+
+/// Adaptive sampling pays only where there are many more samples to save than the pilot costs.
+uint32_t pilotSamples(const Settings& settings) {
+    const bool adaptive = settings.convergedVariance > 0.f && uint32_t(settings.samples) >= 2 * PilotSamples;
+    return adaptive ? PilotSamples : 0;
+}
 
 RendererImpl::RendererImpl(MachinePtr machine, const RendererOptions& options,
                            const RendererInternals& internals)
@@ -85,7 +105,8 @@ ChangedSet RendererImpl::commit(SceneEdit& edit) {
         changed = _scene.apply(edit.take());
         if (changed.empty()) return true;
         const bool camera = anyCamera(changed) && !(before && before->sameView(*_scene.camera()));
-        const bool traced = _scene.tracedChanged() || lensChanged(before, _scene.camera());
+        const bool traced = _scene.tracedChanged() || lensChanged(before, _scene.camera()) ||
+                            (_schedule.pilot() > 0 && exposureChanged(before, _scene.camera()));
         std::vector<WorldBox> regions = _scene.takeVacated();
         _scene.commit();
         _scene.addOccupied(changed, regions);
@@ -102,6 +123,7 @@ ChangedSet RendererImpl::commit(SceneEdit& edit) {
 
 void RendererImpl::restart(Cause cause) {
     const TileGrid grid(_film.width(), _film.height(), tileSize());
+    _schedule.setPilot(pilotSamples(_settings));
     if (cause == Cause::Picture)
         _schedule.reset(grid);
     else
@@ -162,6 +184,10 @@ bool RendererImpl::setup() {
     record.filterWidth = _settings.filterWidth;
     record.fireflyClamp = _settings.fireflyClamp;
     record.seed = uint32_t(_settings.seed);
+    record.pilot = _schedule.pilot();
+    if (record.pilot > 0)
+        record.seed ^= gpu::SECOND_SET_SEED; // the second set is that of pictures without a pilot
+    record.darkest = DarkestRadiance / std::max(cameraExposure(), std::numeric_limits<float>::min());
     record.discovery = _edits.address();
     record.changeScale = _edits.changeScale();
     _tracer.setup(record, *camera, _scene.flags());
@@ -235,17 +261,35 @@ uint32_t RendererImpl::samplePaths() const {
     return fewWait ? std::min(batchPaths(), some << doublings) : batchPaths();
 }
 
+/// The variance of a mean is that of one sample over their number. The samples that the pilot took are no
+/// part of the mean: what decided how many there are must not be in it, or pixels that happened to miss a
+/// light would keep that for good (D. Kirk and J. Arvo, "Unbiased Sampling Techniques for Image Synthesis",
+/// 1991).
+void RendererImpl::learnFromPilots(const std::vector<gpu::TileWork>& tiles) {
+    const uint32_t pilot = _schedule.pilot();
+    for (size_t i = 0; pilot > 0 && i < tiles.size(); ++i) {
+        const gpu::TileWork& work = tiles[i];
+        if (work.firstSample + work.sampleCount != pilot) continue;
+        const double variance =
+            double(_tileChanges[i].variance) / (double(gpu::VARIANCE_STEPS) * work.width * work.height);
+        const double samples = std::ceil(variance / double(_settings.convergedVariance));
+        _schedule.want(_schedule.grid().at(work.x, work.y), uint32_t(std::min(samples, MostSamples)));
+    }
+}
+
 bool RendererImpl::renderSamples() {
     const auto start = Clock::now();
     const uint32_t samples = uint32_t(_settings.samples);
     const std::vector<gpu::TileWork>& tiles = _schedule.next(samplePaths(), samples);
     const uint32_t paths = _schedule.pathCount();
     if (!tiles.empty()) {
-        const bool done =
-            _tracer.trace(_scene.traversal(), tiles, paths, _cancel, _edits.discovery(), _edits.changes());
+        const bool watched = _edits.changeScale() > 0.f || _schedule.pilot() > 0;
+        const bool done = _tracer.trace(_scene.traversal(), tiles, paths, _cancel, _edits.discovery(),
+                                        watched ? &_tileChanges : nullptr);
         if (!done) return _edits.traced(false), false;
         ++_batchesSinceRestart;
-        _edits.measured(tiles);
+        _edits.measured(tiles, _tileChanges);
+        learnFromPilots(tiles);
         _schedule.advance();
         _log.batch(tiles, paths, _schedule);
         _edits.traced(true);
@@ -273,7 +317,7 @@ void RendererImpl::count(uint32_t paths, double seconds) {
     _progress.raysTraced = _progress.nearestRays + _progress.shadowRays;
     _progress.seconds += seconds;
     _progress.fraction = double(_schedule.pathsDone()) /
-                         std::max(1.0, double(_film.pixels()) * double(_progress.samplesTotal));
+                         std::max(1.0, double(_schedule.pathsWanted(uint32_t(_settings.samples))));
     _progress.pictureShown = _schedule.everythingShown();
     _progress.firstHitsDone = firstHitsDone() && !_splats.pending(); // the ids of splats are among them
     if (paths && _progress.firstRevealSeconds == 0) _progress.firstRevealSeconds = secondsSince(_restarted);
@@ -290,7 +334,9 @@ bool RendererImpl::readAov(const AovRequest& aov, void* dst, size_t words) {
         if (!isTileAov(aov.kind)) {
             if (!_film.read(aov, _schedule, dst, words)) return false;
             _splats.blend(aov, dst, _film.pixels());
-            if (aov.kind == AovKind::Color) expose(static_cast<float*>(dst));
+            const float exposure = cameraExposure();
+            if (aov.kind == AovKind::Color) scaleColors(static_cast<float*>(dst), 4, exposure);
+            if (aov.kind == AovKind::Variance) scaleColors(static_cast<float*>(dst), 3, exposure * exposure);
             return true;
         }
         if (!_film.holds(aov) || words != _film.pixels()) return false;
@@ -299,14 +345,16 @@ bool RendererImpl::readAov(const AovRequest& aov, void* dst, size_t words) {
     });
 }
 
-/// Scales a picture by the camera's exposure.
-void RendererImpl::expose(float* rgba) const {
-    const float exposure =
-        _scene.camera() && _settings.exposureCompensation ? _scene.camera()->exposure : 1.f;
-    if (exposure == 1.f) return;
-    for (float* const end = rgba + 4 * _film.pixels(); rgba != end; rgba += 4)
+float RendererImpl::cameraExposure() const {
+    return _scene.camera() && _settings.exposureCompensation ? _scene.camera()->exposure : 1.f;
+}
+
+/// Scales the first three components of each pixel.
+void RendererImpl::scaleColors(float* pixels, size_t components, float scale) const {
+    if (scale == 1.f) return;
+    for (float* const end = pixels + components * _film.pixels(); pixels != end; pixels += components)
         for (int c = 0; c < 3; ++c)
-            rgba[c] *= exposure;
+            pixels[c] *= scale;
 }
 
 MemoryReport RendererImpl::memory() const {

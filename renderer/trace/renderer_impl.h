@@ -69,7 +69,9 @@ private:
     bool complete() const;
     bool firstHitsDone() const { return _firstHitsDone >= _film.pixels(); }
     bool renderSamples();
-    void expose(float* rgba) const;
+    void learnFromPilots(const std::vector<gpu::TileWork>& tiles);
+    float cameraExposure() const;
+    void scaleColors(float* pixels, size_t components, float scale) const;
     uint32_t batchPaths() const { return _internals.batchPaths ? _internals.batchPaths : _batch.paths(); }
     uint32_t samplePaths() const;
     void count(uint32_t paths, double seconds);
@@ -86,6 +88,7 @@ private:
     PathTracer& _tracer;
     EditScheduler _edits;
     SplatLayer _splats;
+    std::vector<gpu::TileChange> _tileChanges; ///< of the last batch, if somebody asks
     BatchSize _batch;
     bool _failed = false, _setupPending = true, _nonFiniteReported = false, _cameraReported = false;
     Clock::time_point _restarted;
@@ -96,6 +99,9 @@ private:
     mutable std::mutex _progressMutex;
     Progress _progress;
 };
+
+/// Samples of the pilot that settings ask for; see TileSchedule::setPilot().
+uint32_t pilotSamples(const Settings& settings);
 
 /// Runs `work`. What escapes it ends the renderer's life with one message: false is all callers see from then
 /// on.

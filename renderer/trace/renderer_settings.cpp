@@ -24,8 +24,9 @@ bool samePicture(const Settings& a, const Settings& b) {
     c.splatMode = b.splatMode; // splats are no part of the samples
     c.splatAntialiasing = b.splatAntialiasing;
     c.splatColors = b.splatColors;
-    c.exposureCompensation = b.exposureCompensation; // nor is what they are multiplied by
-    return c == b;
+    if (pilotSamples(a) == 0)                            // which looks at what is displayed
+        c.exposureCompensation = b.exposureCompensation; // nor is what they are multiplied by
+    return c == b && pilotSamples(a) == pilotSamples(b);
 }
 
 ChangedSet settingChange() {
@@ -76,6 +77,7 @@ ChangedSet RendererImpl::setSettings(const Settings& settings) {
         prepareMode();
         _edits.prepare(settings);
         const bool discovers = EditScheduler::discovers(settings);
+        _film.keepSpreads(settings.convergedVariance > 0.f);
         if (_film.keepHits(discovers)) findFirstHits(discovers);
         const std::string traversal = _traversalInUse;
         selectTraversal();

@@ -184,13 +184,28 @@ void SplatLayer::blend(const AovRequest& aov, void* values, uint64_t pixels) con
         return replace([&](const gpu::SplatPixel& pixel, size_t i) { ints[i] = pixel.instanceId; });
     case AovKind::ElementId:
         return replace([&](const gpu::SplatPixel& pixel, size_t i) { ints[i] = int(pixel.splat); });
+    case AovKind::Peye:
+        return blendPositions(vectors);
     case AovKind::Normal:
     case AovKind::Neye:
+    case AovKind::PatchCoord:
     case AovKind::Primvar: // splats have none
         return replace([&](const gpu::SplatPixel&, size_t i) { vectors[i] = glm::vec3(0.f); });
     default:
-        return; // of HiPR's tiles
+        return; // of HiPR's tiles, or of samples, of which splats have none
     }
+}
+
+glm::vec3 SplatLayer::shownPoint(size_t pixel) const {
+    const glm::vec2 film = glm::vec2(pixel % _view.width, pixel / _view.width) + 0.5f;
+    const glm::vec2 ndc = 2.f * film / glm::vec2(_view.width, _view.height) - 1.f;
+    return pointAt(_view.camera, ndc, _shown[pixel].depth);
+}
+
+void SplatLayer::blendPositions(glm::vec3* positions) const {
+    for (size_t i = 0; i < pixelCount(); ++i)
+        if (_shown[i].splat != gpu::NO_SPLAT)
+            positions[i] = _view.camera.worldToView * glm::vec4(shownPoint(i), 1.f);
 }
 
 void SplatLayer::blendColor(float* rgba) const {
@@ -211,9 +226,7 @@ void SplatLayer::blendAlbedo(float* rgb) const {
 void SplatLayer::blendDepth(AovKind kind, float* depths) const {
     for (size_t i = 0; i < pixelCount(); ++i) {
         if (_shown[i].splat == gpu::NO_SPLAT) continue;
-        const glm::vec2 film = glm::vec2(i % _view.width, i / _view.width) + 0.5f;
-        const glm::vec2 ndc = 2.f * film / glm::vec2(_view.width, _view.height) - 1.f;
-        const glm::vec4 point(pointAt(_view.camera, ndc, _shown[i].depth), 1.f);
+        const glm::vec4 point(shownPoint(i), 1.f);
         if (kind == AovKind::CameraDepth) {
             depths[i] = -(_view.camera.worldToView * point).z;
         } else {

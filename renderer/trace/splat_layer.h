@@ -61,6 +61,8 @@ private:
     void updateStores(const SplatTable& table);
     void blendColor(float* rgba) const;
     void blendAlbedo(float* rgb) const;
+    glm::vec3 shownPoint(size_t pixel) const; ///< in world space
+    void blendPositions(glm::vec3* positions) const;
     void blendDepth(AovKind kind, float* depths) const;
     void fetch();
     size_t pixelCount() const { return size_t(_view.width) * _view.height; }

@@ -16,6 +16,7 @@ void addTo(inout vec3 sum, inout vec3 error, vec3 value) {
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FirstSampleRef { vec3 v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer OldPictureRef { OldPixel v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer SpreadRef { vec3 v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer SeenRef { SeenPoint v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TileChangeRef { TileChange v[]; };
 
@@ -51,6 +52,15 @@ void retire(TraceRecord trace, uint flags, uint pixel, vec3 radiance) {
     if (noise > 0u) atomicAdd(TileChangeRef(trace.tileChanges).v[gl_WorkGroupID.y].noise, noise);
 }
 
+// Adds a pixel's relative variance to that of its tile, once the pilot is complete.
+void reportPilot(TraceRecord trace, TileWork tile, vec3 mean, vec3 spread) {
+    if (tile.firstSample + tile.sampleCount != trace.pilot) return;
+    const float variance = dot(spread, vec3(1.0 / 3.0)) / float(trace.pilot - 1u);
+    const float level = max(dot(mean, vec3(1.0 / 3.0)), trace.darkest);
+    const uint steps = uint(min(variance / (level * level) * VARIANCE_STEPS, MAX_PIXEL_VARIANCE));
+    if (steps > 0u) atomicAdd(TileChangeRef(trace.tileChanges).v[gl_WorkGroupID.y].variance, steps);
+}
+
 void main() {
     const TraceRecord trace = TraceRecordRef(push.record).v;
     const TileWork tile = TileRef(trace.tiles).v[gl_WorkGroupID.y];
@@ -58,9 +68,13 @@ void main() {
     if (local >= tile.width * tile.height) return;
     const uint pixel = tile.x + local % tile.width + (tile.y + local / tile.width) * trace.width;
 
-    // The first sample replaces what an earlier picture left in the pixel.
+    // The first sample replaces what an earlier picture left in the pixel, and the first after the pilot the pilot.
     FilmPixel sum = FilmPixel(vec4(0.0), vec3(0.0), 0u, vec3(0.0), vec3(0.0));
-    if (tile.firstSample != 0u) sum = FilmRef(trace.film).v[pixel];
+    vec3 spread = vec3(0.0);
+    if (tile.firstSample != 0u && tile.firstSample != trace.pilot) {
+        sum = FilmRef(trace.film).v[pixel];
+        if (trace.spreads != 0ul) spread = SpreadRef(trace.spreads).v[pixel];
+    }
     vec3 color = sum.color.rgb;
     for (uint i = 0u; i < tile.sampleCount; ++i) {
         const PathState path = PathRef(trace.paths).v[tile.firstSlot + local * tile.sampleCount + i];
@@ -71,11 +85,18 @@ void main() {
             if (trace.seen != 0ul)
                 SeenRef(trace.seen).v[pixel] = PathSeenRef(trace.pathSeen).v[tile.firstSlot + local * tile.sampleCount];
         }
+        const vec3 before = radiance - color / float(max(sum.count, 1u));
         addTo(color, sum.colorError, radiance);
+        // B. P. Welford, "Note on a method for calculating corrected sums of squares and products", Technometrics
+        // 4(3), 1962: subtracting the mean's square from the mean of squares would leave rounding errors only.
+        if (trace.spreads != 0ul && sum.count > 0u) spread += before * (radiance - color / float(sum.count + 1u));
+        ++sum.count;
         addTo(sum.albedo, sum.albedoError, path.albedo);
         sum.color.a += path.alpha; // whole numbers
     }
     sum.color.rgb = color;
-    sum.count = tile.firstSample + tile.sampleCount;
     FilmRef(trace.film).v[pixel] = sum;
+    if (trace.spreads == 0ul) return;
+    SpreadRef(trace.spreads).v[pixel] = spread;
+    reportPilot(trace, tile, color / float(sum.count), spread);
 }

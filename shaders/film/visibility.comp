@@ -39,6 +39,12 @@ void storeAov(TraceRecord trace, AovTarget target, uint pixel, bool seen, Shadin
     case AOV_NEYE:
         store(target, pixel, seen ? normalize(mat3(camera.worldToView) * normal) : vec3(0.0));
         break;
+    case AOV_PEYE:
+        store(target, pixel, seen ? camera.worldToView * vec4(position, 1.0) : vec3(0.0));
+        break;
+    case AOV_PATCH_COORD:
+        store(target, pixel, seen ? vec3(point.uv, 0.0) : vec3(0.0));
+        break;
     case AOV_PRIM_ID:
         store(target, pixel, seen ? point.instance.primId : -1);
         break;

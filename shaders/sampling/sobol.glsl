@@ -7,6 +7,7 @@
 #ifndef HIPR_SAMPLING_SOBOL_GLSL
 #define HIPR_SAMPLING_SOBOL_GLSL
 #extension GL_EXT_control_flow_attributes : require
+#include "shared/trace.h"
 
 // A bijection of 32-bit integers with low bias (exponents and multipliers by C. Wellons, "Prospecting for hash
 // functions", 2018, `lowbias32`).
@@ -65,7 +66,10 @@ uvec4 sobolPoint(uint index) {
 
 // Uniform numbers in [0, 1). `dimensionSet` tells the uses of one path apart (a new set for every decision of every
 // bounce); within a set the four numbers are stratified jointly over samples 0..2^k - 1.
+// Bit 31 of the index stands for another seed.
 vec4 sobol4(uvec2 pixel, uint sampleIndex, uint dimensionSet, uint seed) {
+    seed ^= (sampleIndex >> 31) * SECOND_SET_SEED;
+    sampleIndex &= ~SECOND_SAMPLE_SET;
     uint h = hashCombine(hashCombine(hashCombine(hashUint(seed), pixel.x), pixel.y), dimensionSet);
     uint index = bitfieldReverse(permuteReversed(uvec4(bitfieldReverse(sampleIndex)), uvec4(h)).x);
     uvec4 seeds = uvec4(hashCombine(h, 1u), hashCombine(h, 2u), hashCombine(h, 3u), hashCombine(h, 4u));

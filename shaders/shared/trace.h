@@ -71,7 +71,7 @@ struct PathState {
     vec3 albedo;             // of the first surface that scattered it
     float alpha;
     uint pixel;              // x + y * 65536
-    uint sampleIndex;
+    uint sampleIndex;        // bit 31: SECOND_SAMPLE_SET
     uint history;            // how it scattered so far: HISTORY_* in hipr.h
     uint medium;             // MEDIUM_*
     uint mediumColor;        // colour of a subsurface medium where the path entered it: packMediumColor() in medium.glsl
@@ -125,8 +125,16 @@ struct OldPixel {
 struct TileChange {
     uint change;             // of the mean over the channels of |new - old|, old being the same sample
     uint noise;              // of the same with the mean on display for old, where a flag of the work item tells where it is
+    uint variance;           // where the pilot ends: relative variance of one sample, in units of 1 / VARIANCE_STEPS
 };
 HIPR_CONST float MAX_PIXEL_CHANGE = 65535.0f; // in the same units; 2^15 pixels fit
+HIPR_CONST float VARIANCE_STEPS = 4096.0f;
+HIPR_CONST float MAX_PIXEL_VARIANCE = 1048576.0f; // in those steps; 2^11 pixels fit
+
+// Adaptive sampling: numbers of the pilot and of the picture come from sets of their own. Bit 31 of a sample's index
+// tells them apart, and changes the seed by this.
+HIPR_CONST uint SECOND_SAMPLE_SET = 0x80000000u;
+HIPR_CONST uint SECOND_SET_SEED = 0x5bd1e995u;
 
 // One AOV that is resolved from the first hit; one value a pixel.
 struct AovTarget {
@@ -143,6 +151,8 @@ HIPR_CONST uint AOV_PRIM_ID = 6u;
 HIPR_CONST uint AOV_INSTANCE_ID = 7u;
 HIPR_CONST uint AOV_ELEMENT_ID = 8u;
 HIPR_CONST uint AOV_PRIMVAR = 9u;
+HIPR_CONST uint AOV_PEYE = 14u;
+HIPR_CONST uint AOV_PATCH_COORD = 15u;
 
 // Indices of the queue headers. Ray and transmit queues are read and written in turns; shadow headers alternate so
 // that one can be cleared while the other is in use.
@@ -185,6 +195,7 @@ struct TraceRecord {
     uint64_t opaqueDepths;   // float[]: VisibilityRecord::cameraDepth, 0 where nothing is seen; or 0
     uint64_t oldPicture;     // OldPixel[]
     uint64_t firstSamples;   // vec3[]: radiance of each pixel's sample 0 in the picture on display
+    uint64_t spreads;        // vec3[]: sum of the squares of what a pixel's samples differ from their mean by; or 0
     uint64_t seen;           // SeenPoint[]: what each pixel on display shows, as its sample 0 saw it; or 0
     uint64_t pathSeen;       // SeenPoint[] by path: what sample 0 sees
     uint64_t scoutResults;   // ScoutResult[]
@@ -200,6 +211,8 @@ struct TraceRecord {
     float fireflyClamp;
     uint seed;
     float changeScale;       // 0: nobody asks for tileChanges
+    uint pilot;              // so many first samples of each pixel only tell how many more it needs; 0: none do
+    float darkest;           // the pilot takes errors relative to the radiance, or to this where that is less
 };
 
 // Push constants of every wavefront kernel.

@@ -28,6 +28,8 @@ void main() {
     path.alpha = 0.0;
     path.pixel = pixel.x | pixel.y << 16;
     path.sampleIndex = tile.firstSample + local % tile.sampleCount;
+    if (trace.pilot > 0u && path.sampleIndex >= trace.pilot)
+        path.sampleIndex = (path.sampleIndex - trace.pilot) | SECOND_SAMPLE_SET;
     path.history = 0u;
     path.medium = MEDIUM_NONE;
     path.mediumColor = 0u;

@@ -114,6 +114,35 @@ TEST_F(RecorderProducts, FitTheCameraByTheirPolicy) {
     EXPECT_EQ(colourAt(ImageFile(file("cut.exr")), redSpot), "red");
 }
 
+// A data window is a part of the picture; pixels that are twice as wide as high show the square in half the
+// columns.
+TEST_F(RecorderProducts, MayBeAPartOfThePictureOrHaveWidePixels) {
+    const Outcome outcome =
+        recorded(std::string(color) +
+                 product("A", named("part.exr"), "</Render/color>",
+                         "    uniform float4 dataWindowNDC = (0, 0.25, 0.5, 0.75)") +
+                 product("B", named("wide.exr"), "</Render/color>",
+                         "    uniform float pixelAspectRatio = 2\n    uniform int2 resolution = (20, 40)") +
+                 product("C", named("fit.exr"), "</Render/color>",
+                         "    uniform int2 resolution = (20, 40)\n"
+                         "    uniform token aspectRatioConformPolicy = \"adjustPixelAspectRatio\"") +
+                 settings("</Render/A>, </Render/B>, </Render/C>"));
+    ASSERT_EQ(outcome.code, 0) << outcome.text;
+    const ImageFile part(file("part.exr"));
+    EXPECT_EQ(part.spec().width, 20);
+    EXPECT_EQ(part.spec().height, 20);
+    EXPECT_EQ(part.spec().y, 10);
+    EXPECT_EQ(part.spec().full_width, 40);
+    EXPECT_EQ(colourAt(part, {redSpot.x * 2, 0.5}), "red");
+    for (const char* const name : {"wide.exr", "fit.exr"}) {
+        const ImageFile wide(file(name));
+        EXPECT_NEAR(wide.spec().get_float_attribute("PixelAspectRatio"), 2.f, 1e-5f) << name;
+        EXPECT_EQ(colourAt(wide, redSpot), "red") << name;
+        EXPECT_EQ(colourAt(wide, greenSpot), "green") << name;
+        EXPECT_EQ(colourAt(wide, blueSpot), "blue") << name;
+    }
+}
+
 TEST_F(RecorderProducts, TheCommandLineWins) {
     const std::string prims =
         color + product("A", named("a.exr"), "</Render/color>") +
@@ -150,17 +179,15 @@ TEST_F(RecorderProducts, WhatCannotBeDoneIsSaid) {
         HasSubstr("a.tga"));
     EXPECT_THAT(recorded(color + a + settings("</Render/A>"), {"--aovs", "depth"}).text, HasSubstr("--aovs"));
 
-    const Outcome odd = recorded(
-        color + a +
-        product("Deep", named("deep.exr"), "</Render/color>",
-                "    uniform token productType = \"deepRaster\"") +
-        settings("</Render/A>, </Render/Deep>",
-                 "    uniform float4 dataWindowNDC = (0, 0, 0.5, 1)\n    uniform float pixelAspectRatio = 2\n"
-                 "    int hipr:maxDpeth = 3\n    int other:thing = 1"));
+    const Outcome odd = recorded(color + a +
+                                 product("Deep", named("deep.exr"), "</Render/color>",
+                                         "    uniform token productType = \"deepRaster\"") +
+                                 settings("</Render/A>, </Render/Deep>",
+                                          "    uniform float pixelAspectRatio = -2\n"
+                                          "    int hipr:maxDpeth = 3\n    int other:thing = 1"));
     EXPECT_EQ(odd.code, 0);
-    EXPECT_THAT(odd.text,
-                AllOf(HasSubstr("deepRaster"), HasSubstr("dataWindowNDC"), HasSubstr("pixelAspectRatio"),
-                      HasSubstr("hipr:maxDpeth"), testing::Not(HasSubstr("other:thing"))));
+    EXPECT_THAT(odd.text, AllOf(HasSubstr("deepRaster"), HasSubstr("pixelAspectRatio"),
+                                HasSubstr("hipr:maxDpeth"), testing::Not(HasSubstr("other:thing"))));
     EXPECT_THAT(files(), UnorderedElementsAre("a.exr", "shot.usda"));
 }
 

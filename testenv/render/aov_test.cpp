@@ -36,6 +36,8 @@ struct TwoQuads {
                     {AovKind::CameraDepth, {}},
                     {AovKind::Normal, {}},
                     {AovKind::Neye, {}},
+                    {AovKind::Peye, {}},
+                    {AovKind::PatchCoord, {}},
                     {AovKind::PrimId, {}},
                     {AovKind::InstanceId, {}},
                     {AovKind::ElementId, {}},
@@ -78,6 +80,8 @@ void check(const CameraDesc& camera) {
     const auto depth = stage.read<float>(AovKind::Depth),
                cameraDepth = stage.read<float>(AovKind::CameraDepth);
     const auto normal = stage.read<glm::vec3>(AovKind::Normal), neye = stage.read<glm::vec3>(AovKind::Neye);
+    const auto peye = stage.read<glm::vec3>(AovKind::Peye),
+               patch = stage.read<glm::vec3>(AovKind::PatchCoord);
     const auto prim = stage.read<int>(AovKind::PrimId), instance = stage.read<int>(AovKind::InstanceId);
     const auto element = stage.read<int>(AovKind::ElementId), count = stage.read<int>(AovKind::SampleCount);
     const auto albedo = stage.read<glm::vec3>(AovKind::Albedo),
@@ -98,6 +102,16 @@ void check(const CameraDesc& camera) {
             const glm::vec3 front = hit ? glm::vec3(0, 0, 1) : glm::vec3(0);
             ASSERT_LT(glm::length(normal.at(x, y) - front), 1e-5);
             ASSERT_LT(glm::length(neye.at(x, y) - glm::vec3(glm::dmat3(camera.worldToView) * front)), 1e-5);
+            ASSERT_LT(glm::length(glm::dvec3(peye.at(x, y)) - (hit ? glm::dvec3(view) : glm::dvec3(0))),
+                      1e-4);
+            const glm::dvec3 parts = glm::dvec3(patch.at(x, y));
+            ASSERT_EQ(parts == glm::dvec3(0), !hit);
+            if (expected.quad == 0) { // corners (0, 1, 2) and (0, 2, 3) of the square
+                const glm::dvec2 st((expected.position.x + 2) / 2, (expected.position.y + 2) / 4);
+                const glm::dvec2 uv =
+                    st.x > st.y ? glm::dvec2(st.x - st.y, st.y) : glm::dvec2(st.x, st.y - st.x);
+                ASSERT_LT(glm::length(glm::dvec2(parts) - uv), 1e-4);
+            }
             ASSERT_EQ(prim.at(x, y), hit ? int(expected.quad ? scene.right : scene.left) : -1);
             ASSERT_EQ(instance.at(x, y), hit ? (expected.quad ? 2 : 0) : -1);
             ASSERT_EQ(element.at(x, y), hit ? 0 : -1);

@@ -309,3 +309,43 @@ TEST(TileSchedule, NothingStarvesInAStreamOfEdits) {
     }
     EXPECT_LT(oldest, 40u);
 }
+
+// With a pilot every tile gets the pilot's samples and then, pilot apart, those it wants; what replaces the
+// pilot on display is as good as the pilot was. No sample comes twice, and what is complete takes no more
+// work.
+TEST(TileSchedule, TilesStopWhereTheyWantTo) {
+    constexpr uint32_t Pilot = 4, Most = 1000;
+    for (uint32_t greatest : {5000u, 40u}) {
+        TileSchedule schedule;
+        schedule.setPilot(Pilot);
+        schedule.reset({64, 48, 16});
+        std::vector<uint32_t> next(12);
+        uint32_t batches = 0;
+        for (;; ++batches) {
+            const std::vector<TileWork> work = schedule.next(4096, Most);
+            if (work.empty()) break;
+            for (const TileWork& w : work) {
+                const uint32_t tile = schedule.grid().at(w.x, w.y), end = w.firstSample + w.sampleCount;
+                EXPECT_EQ(next[tile], w.firstSample);
+                next[tile] = end;
+                EXPECT_TRUE(end <= Pilot || w.firstSample >= Pilot)
+                    << "a batch is either of the pilot or not";
+                if (w.firstSample == Pilot) {
+                    EXPECT_GE(w.sampleCount, Pilot);
+                }
+                if (end == Pilot) schedule.want(tile, tile == 7 ? greatest : tile);
+            }
+            schedule.advance();
+            const uint64_t paths = schedule.pathsDone();
+            EXPECT_LE(paths, schedule.pathsWanted(Most));
+        }
+        for (uint32_t tile = 0; tile < 12; ++tile) {
+            EXPECT_EQ(next[tile], Pilot + std::min(tile == 7 ? greatest : std::max(tile, Pilot), Most))
+                << tile;
+            EXPECT_EQ(schedule.samplesInMean(tile), next[tile] - Pilot);
+        }
+        EXPECT_EQ(schedule.samplesDone(), Most);
+        EXPECT_EQ(schedule.pathsDone(), schedule.pathsWanted(Most));
+        EXPECT_LT(batches, 200u) << "the last tile's samples come many at a time";
+    }
+}
