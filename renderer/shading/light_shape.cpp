@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "renderer/shading/blackbody.h"
+#include "renderer/shading/elliptic.h"
 #include "shaders/shared/scene.h"
 
 namespace hipr {
@@ -24,36 +25,6 @@ double halfAngle(const LightDesc& desc) {
     return std::min(std::max(double(desc.angle), 0.0), 360.0) * (Pi / 360.0);
 }
 
-/// Area of the image of the sphere of radius 1 under `m`: integral of |det m| |m^-T n| over all n.
-double ellipsoidArea(const glm::dmat3& m) {
-    const glm::dmat3 inverseTranspose = glm::transpose(glm::inverse(m));
-    constexpr int Rows = 128, Columns = 256; // midpoint rule: converges fast on a smooth periodic integrand
-    double sum = 0.0;
-    for (int j = 0; j < Rows; ++j) {
-        const double theta = Pi * (j + 0.5) / Rows;
-        for (int i = 0; i < Columns; ++i) {
-            const double phi = 2.0 * Pi * (i + 0.5) / Columns;
-            const glm::dvec3 n(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
-                               std::cos(theta));
-            sum += std::sin(theta) * glm::length(inverseTranspose * n);
-        }
-    }
-    return sum * (Pi / Rows) * (2.0 * Pi / Columns) * std::abs(glm::determinant(m));
-}
-
-/// Perimeter of the image of the unit circle in the yz plane, times the stretch across the axis: side area of
-/// a cylinder of radius 1 and length 1.
-double cylinderArea(const glm::dmat3& m) {
-    constexpr int Steps = 4096;
-    double sum = 0.0;
-    for (int i = 0; i < Steps; ++i) {
-        const double phi = 2.0 * Pi * (i + 0.5) / Steps;
-        const glm::dvec3 along = m[2] * std::cos(phi) - m[1] * std::sin(phi);
-        sum += glm::length(glm::cross(m[0], along));
-    }
-    return sum * 2.0 * Pi / Steps;
-}
-
 double areaOf(const LightDesc& desc) {
     const glm::dmat3 m(desc.transform);
     switch (desc.kind) {
@@ -64,7 +35,8 @@ double areaOf(const LightDesc& desc) {
     case LightKind::Sphere:
         return ellipsoidArea(m) * desc.radius * desc.radius;
     case LightKind::Cylinder:
-        return cylinderArea(m) * desc.radius * desc.length;
+        // A circle around the axis, stretched across it.
+        return ellipsePerimeter(glm::cross(m[0], m[1]), glm::cross(m[0], m[2])) * desc.radius * desc.length;
     default:
         return 0.0;
     }
