@@ -8,6 +8,7 @@
 #include "plugin/hdHipr/instancer.h"
 #include "plugin/hdHipr/messages.h"
 #include "plugin/hdHipr/renderParam.h"
+#include "pxr/base/tf/stringUtils.h"
 #include "pxr/imaging/hd/tokens.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
@@ -77,6 +78,7 @@ void HdHiprLight::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, Hd
         }
     }
     if (*dirtyBits & (DirtyParams | DirtyShadowParams | DirtyCollection)) {
+        _cameraLight = isCameraLight(delegate);
         syncParams(delegate);
         syncLinks(delegate, *dirtyBits);
         reportUnsupported(delegate);
@@ -100,7 +102,19 @@ void HdHiprLight::send(HdSceneDelegate* delegate, HdHiprRenderParam& param) {
     }
 }
 
+/// The light that a viewer puts at its camera is there for scenes without lights. OpenUSD newer than 20.08
+/// hands it to renderers other than Storm as a light of a fixed size and intensity, which fits few scenes,
+/// and tells what it was made from: a GlfSimpleLight. The renderer's own camera light stands in.
+bool HdHiprLight::isCameraLight(HdSceneDelegate* delegate) const {
+    return _desc.kind != hipr::LightKind::Dome &&
+           TfStringEndsWith(delegate->GetLightParamValue(GetId(), HdLightTokens->params).GetTypeName(),
+                            "GlfSimpleLight");
+}
+
 std::vector<GfMatrix4d> HdHiprLight::instanceTransforms(HdSceneDelegate* delegate) const {
+    if (_cameraLight) {
+        return {};
+    }
     if (instancerId().IsEmpty()) {
         return {_transform};
     }

@@ -26,10 +26,12 @@ private:
     hipr::LightShadow readShadow(HdSceneDelegate* delegate) const;
     void reportUnsupported(HdSceneDelegate* delegate) const;
     void send(HdSceneDelegate* delegate, HdHiprRenderParam& param);
+    bool isCameraLight(HdSceneDelegate* delegate) const;
     std::vector<GfMatrix4d> instanceTransforms(HdSceneDelegate* delegate) const;
 
     GfMatrix4d _transform{1.0};
     hipr::LightDesc _desc;
+    bool _cameraLight = false;          ///< of a viewer
     std::vector<hipr::LightId> _lights; ///< one for each instance
 };
 
