@@ -74,7 +74,7 @@ GpuScene::GpuScene(Device& device, AssetReader assets)
     : _device(device), _categories(device),
       _textures(device, std::move(assets), ColorManager::create(device.messages())),
       _materials(device, _names, _textures), _lights(device, _textures, _categories),
-      _geometries(device, _names), _objects(device, _names, _categories),
+      _geometries(device, _names), _objects(device, _names, _categories), _meshLights(device),
       _record(device.createBuffer(sizeof(gpu::SceneRecord), MemoryUse::Device, "Scene")) {}
 
 void GpuScene::setTraversal(std::unique_ptr<Traversal> traversal) {
@@ -176,12 +176,13 @@ void GpuScene::commit() {
     _textures.commit();
     _materials.commit();
     _geometries.commit(*_traversal);
-    if (_objects.commit(_geometries, _splats, _options.materials ? &_materials : nullptr) ||
-        _traversalChanged)
+    const MaterialTable* const materials = _options.materials ? &_materials : nullptr;
+    if (_objects.commit(_geometries, _splats, materials) || _traversalChanged)
         _traversal->setInstances(_objects.records());
     _traversal->commit();
     _traversalChanged = _tracedChanged = false;
 
+    _meshLights.commit(_objects, _geometries, materials);
     _hostRecord = {};
     _objects.describe(_hostRecord);
     commitLights();
@@ -206,6 +207,7 @@ void GpuScene::commitLights() {
     } else {
         _lights.remove(CameraLight);
     }
+    _lights.setMeshes(_meshLights.lights(), _hostRecord.instanceCount);
     _lights.commit(_hostRecord.boundsMin, _hostRecord.boundsMax);
 }
 

@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "renderer/api/settings.h"
+#include "renderer/scene/mesh_lights.h"
 #include "renderer/scene/object_table.h"
 #include "renderer/shading/categories.h"
 #include "renderer/shading/lights.h"
@@ -92,6 +93,7 @@ private:
     GeometryTable _geometries;
     SplatTable _splats;
     ObjectTable _objects;
+    MeshLights _meshLights;
     std::unique_ptr<Traversal> _traversal;
 
     std::unordered_map<MaterialId, MaterialDesc> _materialDescs; ///< to tell what an edit changes

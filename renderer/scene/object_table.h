@@ -39,6 +39,14 @@ public:
     bool commit(const GeometryTable& geometries, const SplatTable& splats, const MaterialTable* materials);
 
     const std::vector<gpu::InstanceRecord>& records() const { return _records; }
+    /// An object that shows a material which emits: its records are `count` from `first` on.
+    struct Emitter {
+        ObjectId id;
+        const ObjectDesc* desc;
+        uint32_t first, count;
+    };
+    /// In the order of their records; as of the last commit.
+    std::vector<Emitter> emitters(const MaterialTable& materials) const;
     /// Where clouds of splats stand, in the order of the objects' names; as of the last commit.
     std::vector<SplatPlacement> splats() const;
     /// Goes up with every commit() after which splats() or the clouds it names are others.

@@ -19,6 +19,9 @@ public:
 
     /// The number of a category; gpu::NO_INDEX for no name, which stands for all objects.
     uint32_t category(const std::string& name);
+    /// One of 31 bits, the same for a category whatever others there are; all 32 for no name. What is in a
+    /// category has its bit in the mark of its set; so may what is not, but seldom.
+    static uint32_t markOf(const std::string& name);
     /// The number of a set, whatever the order of its names; that of the empty one is 0.
     uint32_t set(std::vector<std::string> names);
 

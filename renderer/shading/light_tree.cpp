@@ -49,6 +49,7 @@ void merge(LightBounds& a, const LightBounds& b) {
     mergeCones(a, b);
     a.emission = std::max(a.emission, b.emission);
     a.power += b.power;
+    a.links |= b.links;
 }
 
 /// Solid angle that the cone covers, weighed by the cosine where light leaves the normals' cone (Conty
@@ -93,6 +94,7 @@ public:
         node.lo = bounds.lo, node.hi = bounds.hi;
         node.axis = bounds.axis;
         node.power = float(bounds.power);
+        node.links = bounds.links;
         node.cosSpread = float(std::cos(bounds.spread));
         node.cosEmission = float(std::cos(bounds.emission));
         node.light = end - begin == 1 ? _order[begin] : gpu::NO_INDEX;

@@ -17,6 +17,7 @@ struct LightBounds {
     glm::vec3 axis{0.f, 0.f, 1.f};
     double spread = 0.0, emission = 0.0; ///< radians, up to pi
     double power = 0.0;
+    uint32_t links = 0xffffffffu; ///< LightNode::links
 };
 
 /// Bounds of the light of a record, which is not a dome or a distant one. `coneAngle`: of its shaping, in

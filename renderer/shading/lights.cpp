@@ -26,6 +26,7 @@ struct LightTable::Impl {
         std::string name;
         LightRecord record;
         std::optional<uint32_t> texture;
+        uint32_t links; ///< LightNode::links
         LightShaping shaping;
         std::optional<gpu::ShadowRecord> shadow;
     };
@@ -40,6 +41,7 @@ struct LightTable::Impl {
     struct Tables {
         std::vector<LightRecord> lights;
         std::vector<double> powers;
+        std::vector<uint32_t> links; ///< LightNode::links
         std::vector<gpu::ShapingRecord> shapings;
         std::vector<gpu::ShadowRecord> shadows;
     };
@@ -56,8 +58,10 @@ struct LightTable::Impl {
     bool changed = true;
     uint32_t textureVersion = 0;
     double sceneRadius = -1.0;
-    uint32_t areaLights = 0, thinLights = 0, infiniteLights = 0; ///< in this order in the table
-    Buffer records, cumulative, shapings, shadows;
+    std::vector<MeshLight> meshes;
+    uint32_t instanceCount = 0;
+    uint32_t areaLights = 0, thinLights = 0, infiniteLights = 0; ///< meshes are before the infinite ones
+    Buffer records, cumulative, shapings, shadows, instanceLights;
     Buffer nodes;
     uint32_t nodeCount = 0;
     float treeChance = 0.f;
@@ -73,6 +77,8 @@ struct LightTable::Impl {
     template <class Record>
     void uploadParts(const std::vector<Record>& parts, uint64_t LightRecord::*address,
                      std::vector<LightRecord>& table, Buffer& buffer);
+    size_t inTree() const { return areaLights + thinLights + meshes.size(); }
+    void addMeshes(Tables& tables);
     void rebuild();
     void growTree(Tables& tables);
     std::vector<float> spreadChances(Tables& tables);
@@ -165,7 +171,8 @@ void LightTable::Impl::rebuild() {
     Tables tables;
     areaLights = thinLights = infiniteLights = 0;
     const std::vector<Light*> order = inOrder();
-    for (uint32_t* count : {&areaLights, &thinLights, &infiniteLights})
+    for (uint32_t* count : {&areaLights, &thinLights, &infiniteLights}) {
+        if (count == &infiniteLights) addMeshes(tables);
         for (Light* light : order) {
             glm::vec3 mean(1.f);
             LightRecord record = light->record;
@@ -176,8 +183,10 @@ void LightTable::Impl::rebuild() {
                 tables.shadows.push_back(*light->shadow), record.shadow = tables.shadows.size();
             tables.lights.push_back(record);
             tables.powers.push_back(share * lightPower(record, mean, sceneRadius));
+            tables.links.push_back(light->links);
             ++*count;
         }
+    }
     profiles.dropUnused();
     growTree(tables);
     const std::vector<float> sums = spreadChances(tables);
@@ -188,13 +197,37 @@ void LightTable::Impl::rebuild() {
     cumulative = device.createFrom(sums.data(), sums.size(), "light tables");
 }
 
-/// Puts area and thin lights into the tree.
+void LightTable::Impl::addMeshes(Tables& tables) {
+    std::vector<uint32_t> lightOf(meshes.empty() ? 0 : instanceCount, gpu::NO_INDEX);
+    for (const MeshLight& mesh : meshes) {
+        LightRecord record{};
+        record.kind = gpu::LIGHT_MESH;
+        record.radiance = glm::vec3(1.f);
+        record.diffuse = record.specular = 1.f;
+        record.texture = record.category = gpu::NO_INDEX;
+        record.distribution = mesh.distribution;
+        record.instance = mesh.instance;
+        record.triangleCount = mesh.triangleCount;
+        lightOf[mesh.instance] = uint32_t(tables.lights.size());
+        tables.lights.push_back(record);
+        tables.powers.push_back(mesh.bounds.power);
+    }
+    instanceLights = device.createFrom(lightOf.data(), lightOf.size(), "light tables");
+}
+
+/// Puts all lights that have a place into the tree.
 void LightTable::Impl::growTree(Tables& tables) {
     std::vector<LightBounds> bounds;
-    for (size_t i = 0; i < areaLights + thinLights; ++i) {
+    for (size_t i = 0; i < inTree(); ++i) {
         const LightRecord& record = tables.lights[i];
+        if (record.kind == gpu::LIGHT_MESH) {
+            bounds.push_back(meshes[i - areaLights - thinLights].bounds);
+            bounds.back().power = roundedPower(tables.powers[i]);
+            continue;
+        }
         const double cone = record.shaping ? double(tables.shapings[record.shaping - 1].coneAngle) : 4.0;
         bounds.push_back(boundsOf(record, cone, roundedPower(tables.powers[i])));
+        bounds.back().links = tables.links[i];
     }
     std::vector<uint32_t> leaves;
     const std::vector<gpu::LightNode> tree = buildLightTree(bounds, leaves);
@@ -206,12 +239,14 @@ void LightTable::Impl::growTree(Tables& tables) {
     nodeCount = uint32_t(tree.size());
 }
 
-/// Few lights are chosen by their power alone, many by the tree, which is one choice beside the infinite
-/// lights. Returns the sums of chances.
+/// Few lights are chosen by their power alone, many, or linked ones, by the tree, which is one choice beside
+/// the infinite lights. Returns the sums of chances.
 std::vector<float> LightTable::Impl::spreadChances(Tables& tables) {
-    const size_t inTree = areaLights + thinLights;
-    const bool byTree = inTree > FewLights;
-    const auto infinite = tables.powers.begin() + long(inTree);
+    const size_t placed = inTree();
+    const bool linked = std::any_of(tables.lights.begin(), tables.lights.begin() + long(placed),
+                                    [](const LightRecord& light) { return light.category != gpu::NO_INDEX; });
+    const bool byTree = placed > FewLights || linked;
+    const auto infinite = tables.powers.begin() + long(placed);
     std::vector<double> choices = tables.powers;
     if (byTree) {
         choices.assign(infinite, tables.powers.end());
@@ -220,9 +255,9 @@ std::vector<float> LightTable::Impl::spreadChances(Tables& tables) {
     const std::vector<double> chances = lightChances(choices);
     std::vector<float> sums = cumulativeChances(chances);
     treeChance = byTree ? float(chances[0]) : 0.f;
-    if (byTree) sums.insert(sums.begin(), inTree - 1, treeChance);
+    if (byTree) sums.insert(sums.begin(), placed - 1, treeChance);
     for (size_t i = 0; i < tables.lights.size(); ++i)
-        tables.lights[i].selectPdf = float(chances[!byTree ? i : i < inTree ? 0 : i - inTree + 1]);
+        tables.lights[i].selectPdf = float(chances[!byTree ? i : i < placed ? 0 : i - placed + 1]);
     return sums;
 }
 
@@ -249,12 +284,21 @@ void LightTable::set(LightId id, const LightDesc& desc) {
     if (!emits) return;
     light.record.light = uint32_t(id);
     light.record.category = _impl->categories.category(desc.lightLink);
+    light.links = CategoryTable::markOf(desc.lightLink);
     _impl->lights[id] = light;
     _impl->changed = true;
 }
 
 void LightTable::remove(LightId id) {
     _impl->forget(id);
+}
+
+void LightTable::setMeshes(const std::vector<MeshLight>& meshes, uint32_t instanceCount) {
+    if (meshes.empty() && _impl->meshes.empty()) return;
+    if (meshes == _impl->meshes && instanceCount == _impl->instanceCount) return;
+    _impl->meshes = meshes;
+    _impl->instanceCount = instanceCount;
+    _impl->changed = true;
 }
 
 bool LightTable::commit(const glm::vec3& boundsMin, const glm::vec3& boundsMax) {
@@ -273,7 +317,7 @@ bool LightTable::commit(const glm::vec3& boundsMin, const glm::vec3& boundsMax) 
 }
 
 uint32_t LightTable::count() const {
-    return _impl->areaLights + _impl->infiniteLights + _impl->thinLights;
+    return uint32_t(_impl->inTree()) + _impl->infiniteLights;
 }
 
 bool LightTable::emits(LightId id) const {
@@ -289,6 +333,8 @@ void LightTable::describe(gpu::SceneRecord& scene) const {
     scene.lightNodes = _impl->nodes.address();
     scene.lightNodeCount = _impl->nodeCount;
     scene.lightTreeChance = _impl->treeChance;
+    scene.instanceLights = _impl->meshes.empty() ? 0 : _impl->instanceLights.address();
+    if (!_impl->meshes.empty()) scene.flags |= gpu::SCENE_HAS_MESH_LIGHTS;
     if (_impl->hasShadows) scene.flags |= gpu::SCENE_HAS_SHADOWS_TO_WALK;
 }
 

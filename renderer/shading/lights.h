@@ -6,6 +6,7 @@
 
 #include "renderer/api/scene.h"
 #include "renderer/shading/categories.h"
+#include "renderer/shading/mesh_light.h"
 #include "renderer/shading/textures.h"
 #include "renderer/vulkan/device.h"
 #include "shaders/shared/light.h"
@@ -13,11 +14,11 @@
 
 namespace hipr {
 
-/// All lights of a scene: area lights first, then thin ones, then infinite ones. Up to 16 area and thin
-/// lights are chosen by power, more by a tree that knows where they are. Lights that emit nothing (invisible,
-/// zero or non-finite intensity, colour or size, singular transform) are left out; bad values give one
-/// message that names the light. Lights are laid out by name, so that a scene looks the same to the last bit
-/// whatever edits led to it. Used by one thread.
+/// All lights of a scene: area lights first, then thin ones, meshes and infinite ones. Up to 16 of those with
+/// a place are chosen by power, more by a tree that knows where they are. Lights that emit nothing
+/// (invisible, zero or non-finite intensity, colour or size, singular transform) are left out; bad values
+/// give one message that names the light. Lights are laid out by name, so that a scene looks the same to the
+/// last bit whatever edits led to it. Used by one thread.
 class LightTable {
 public:
     LightTable(Device& device, TextureStore& textures, CategoryTable& categories);
@@ -25,6 +26,10 @@ public:
 
     void set(LightId id, const LightDesc& desc);
     void remove(LightId id);
+
+    /// The lights that are instances with an emissive material, in the order of the InstanceRecords, of which
+    /// there are `instanceCount`.
+    void setMeshes(const std::vector<MeshLight>& meshes, uint32_t instanceCount);
 
     /// Rebuilds and uploads the table if a light or the bounds changed. `boundsMin/Max` bound all instances:
     /// the power of infinite lights is what falls on that sphere. Call after TextureStore::commit(). Returns
@@ -37,7 +42,7 @@ public:
     bool emits(LightId id) const;
 
     /// Fills SceneRecord::lights, lightCumulative, the counts and the tree of lights,
-    /// and SCENE_HAS_SHADOWS_TO_WALK.
+    /// and the flags SCENE_HAS_SHADOWS_TO_WALK and SCENE_HAS_MESH_LIGHTS.
     void describe(gpu::SceneRecord& scene) const;
 
 private:

@@ -331,4 +331,17 @@ bool isEmissive(const ResolvedMaterial& material) {
                        mayExceed(material.inputs[gpu::INPUT_EMISSION_LUMINANCE], 0.f));
 }
 
+float emittedLuminance(const ResolvedMaterial& material) {
+    const auto typical = [](const ResolvedInput& input) {
+        if (input.kind == Source::Constant) return input.constant;
+        if (input.kind != Source::Texture) return glm::vec4(1.f);
+        return glm::max(glm::abs(input.node.scale + input.node.bias), glm::abs(input.node.bias));
+    };
+    glm::vec4 emitted = typical(material.inputs[gpu::INPUT_EMISSION_COLOR]);
+    if (material.model == MaterialModel::OpenPbr)
+        emitted *= typical(material.inputs[gpu::INPUT_EMISSION_LUMINANCE]).x;
+    const float luminance = 0.2126f * emitted.x + 0.7152f * emitted.y + 0.0722f * emitted.z;
+    return std::min(std::max(luminance, 1e-20f), 1e20f);
+}
+
 } // namespace hipr

@@ -46,4 +46,8 @@ MaterialRow describeMaterial(const ResolvedMaterial& material, const TextureStor
 
 bool isEmissive(const ResolvedMaterial& material);
 
+/// About the luminance of what it emits, in nits, above 0 and finite if it is emissive: what textures and
+/// primvars hold counts as 1.
+float emittedLuminance(const ResolvedMaterial& material);
+
 } // namespace hipr

@@ -86,7 +86,7 @@ struct MaterialTable::Impl {
     uint32_t used = 0;     ///< records in use or free below
     uint32_t capacity = 0; ///< records the buffer holds
     RowStore previewRows{gpu::PREVIEW_INPUT_COUNT}, openPbrRows{gpu::INPUT_COUNT};
-    std::set<MaterialId> dirty;
+    std::set<MaterialId> dirty, emissive;
     bool moved = false; ///< everything is to be written anew, even if a commit fails in between
     uint32_t textureVersion = 0;
     Buffer records, albedo, openPbrAlbedo;
@@ -166,6 +166,10 @@ void MaterialTable::set(MaterialId id, const MaterialDesc& desc) {
         _impl->materials[id] = {std::move(inputs), index, row};
     }
     _impl->dirty.insert(id);
+    if (isEmissive(_impl->materials[id].inputs))
+        _impl->emissive.insert(id);
+    else
+        _impl->emissive.erase(id);
 }
 
 void MaterialTable::remove(MaterialId id) {
@@ -175,6 +179,7 @@ void MaterialTable::remove(MaterialId id) {
     _impl->freeIndices.push_back(known->second.index);
     _impl->rows(known->second.inputs.model).giveBack(known->second.row);
     _impl->dirty.erase(id);
+    _impl->emissive.erase(id);
     _impl->materials.erase(known);
 }
 
@@ -196,8 +201,15 @@ std::map<uint32_t, MaterialId> MaterialTable::indices() const {
 }
 
 bool MaterialTable::emissive(MaterialId id) const {
-    const auto known = _impl->materials.find(id);
-    return known != _impl->materials.end() && isEmissive(known->second.inputs);
+    return _impl->emissive.count(id) > 0;
+}
+
+bool MaterialTable::anyEmissive() const {
+    return !_impl->emissive.empty();
+}
+
+float MaterialTable::emittedLuminance(MaterialId id) const {
+    return emissive(id) ? hipr::emittedLuminance(_impl->materials.at(id).inputs) : 0.f;
 }
 
 bool MaterialTable::commit() {

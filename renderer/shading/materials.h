@@ -42,6 +42,10 @@ public:
 
     /// Whether the material emits light.
     bool emissive(MaterialId id) const;
+    /// Whether any does.
+    bool anyEmissive() const;
+    /// About the luminance of what it emits, in nits; 0 only if it emits nothing.
+    float emittedLuminance(MaterialId id) const;
 
     /// Uploads changed records. Call after TextureStore::commit(). Returns whether anything was uploaded. No
     /// submission may be reading the tables.

@@ -33,6 +33,8 @@ void PathTracer::setup(gpu::TraceRecord record, const gpu::CameraRecord& camera,
     record.camera = _camera.address();
     _scene = record.scene;
     _sceneFlags = sceneFlags;
+    if ((sceneFlags & gpu::SCENE_HAS_MESH_LIGHTS) && !_emission)
+        _emission = std::make_unique<BackgroundKernels>(_device, emissionKernelSource());
     _device.upload(_record, &record, sizeof(record));
     _device.upload(_camera, &camera, sizeof(camera));
 }
@@ -98,6 +100,8 @@ void PathTracer::raygen(Steps& steps, const std::vector<gpu::TileWork>& tiles, u
 /// Adds the light of shadow rays that arrive.
 void PathTracer::resolveShadows(Steps& steps, uint32_t turn) {
     steps.occluded("trace shadow", _buffers.shadowQueue(turn));
+    if (_sceneFlags & gpu::SCENE_HAS_MESH_LIGHTS)
+        dispatchQueue(steps, "emission", _emission->get(0), gpu::QUEUE_SHADOW + turn, turn);
     dispatchQueue(steps, "shadow", kernel(KernelId::Shadow), gpu::QUEUE_SHADOW + turn, turn);
     const bool shadows = _sceneFlags & gpu::SCENE_HAS_SHADOWS_TO_WALK;
     if (!shadows && !(_sceneFlags & gpu::SCENE_HAS_NON_OPAQUE)) return;

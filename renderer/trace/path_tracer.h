@@ -5,7 +5,9 @@
 /// Kernels pass paths on through queues of rays:
 ///
 ///     raygen                                      one camera ray a slot
-///     round: nearest -> [occluded -> shadow]      hits of the rays; light that arrived from the round before
+///     round: nearest -> [occluded -> shadow]      hits of the rays; light that arrived from the round
+///     before,
+///                                                 in scenes with mesh lights with `emission` before `shadow`
 ///            -> shade                             collects light, scatters; fills the shadow queue and the
 ///            other
 ///            -> prepare                           ray queue; sizes the next dispatches
@@ -50,7 +52,9 @@ public:
     PathTracer(Device& device, uint32_t capacity);
 
     /// Whether all kernels are compiled; waits up to `patience` for it.
-    bool ready(std::chrono::milliseconds patience) { return _kernels.ready(patience); }
+    bool ready(std::chrono::milliseconds patience) {
+        return _kernels.ready(patience) && (!_emission || _emission->ready(patience));
+    }
     uint32_t capacity() const { return _buffers.capacity; }
 
     /// What the next batches render: addresses of scene and film, film size and settings are the caller's to
@@ -102,6 +106,7 @@ private:
 
     Device& _device;
     BackgroundKernels _kernels;
+    std::unique_ptr<BackgroundKernels> _emission; ///< once a scene has asked for it
     WavefrontBuffers _buffers;
     Buffer _record, _camera;
     VkDeviceAddress _scene = 0;

@@ -21,4 +21,8 @@ std::vector<KernelSource> traceKernelSources() {
     };
 }
 
+std::vector<KernelSource> emissionKernelSource() {
+    return {{spirv::emission_spv, spirv::emission_spv_size, sizeof(gpu::TraceKernelPush), "emission"}};
+}
+
 } // namespace hipr

@@ -13,5 +13,7 @@ enum class KernelId { Shade, Visibility, Transmit, Raygen, Resolve, Shadow, Visi
 
 /// The sources of all of them, indexed by KernelId.
 std::vector<KernelSource> traceKernelSources();
+/// The kernel that only scenes with SCENE_HAS_MESH_LIGHTS need.
+std::vector<KernelSource> emissionKernelSource();
 
 } // namespace hipr

@@ -13,6 +13,7 @@ WavefrontBuffers::WavefrontBuffers(Device& device, uint32_t capacity) : capacity
     hits = make(capacity, sizeof(gpu::Hit));
     shadowRays = make(capacity, sizeof(gpu::Ray));
     shadowWork = make(capacity, sizeof(gpu::ShadowWork));
+    shadowEnds = make(capacity, sizeof(gpu::Hit));
     shadowResults = make(capacity, sizeof(uint32_t));
     transmitHits = make(capacity, sizeof(gpu::Hit));
     tileChanges = make(capacity, sizeof(gpu::TileChange));
@@ -38,6 +39,7 @@ void WavefrontBuffers::describe(gpu::TraceRecord& record) const {
     record.hits = hits.address();
     record.shadowRays = shadowRays.address();
     record.shadowWork = shadowWork.address();
+    record.shadowEnds = shadowEnds.address();
     record.shadowResults = shadowResults.address();
     record.transmitHits = transmitHits.address();
     record.tileChanges = tileChanges.address();

@@ -7,7 +7,7 @@
 
 namespace hipr {
 
-/// About 430 bytes a path.
+/// About 450 bytes a path.
 struct WavefrontBuffers {
     WavefrontBuffers(Device& device, uint32_t capacity);
 
@@ -21,8 +21,8 @@ struct WavefrontBuffers {
     static uint64_t headerOffset(uint32_t queue) { return queue * sizeof(gpu::QueueHeader); }
 
     const uint32_t capacity; ///< paths
-    Buffer headers, counters, tiles, paths, hits, shadowRays, shadowWork, shadowResults, transmitHits,
-        scoutResults, tileChanges, seen;
+    Buffer headers, counters, tiles, paths, hits, shadowRays, shadowWork, shadowEnds, shadowResults,
+        transmitHits, scoutResults, tileChanges, seen;
     Buffer rays[2], raySlots[2], transmitRays[2], transmitWork[2];
 };
 

@@ -37,10 +37,20 @@ vec3 lightsAlongRay(SceneRecord scene, Ray ray, float tHit, bool cameraRay, floa
         if (!cameraRay && !inCategory(scene, categories, light.category)) continue;
         LightPoint hit;
         if (!meetLight(light, ray.origin, d, hit) || hit.t <= ray.tMin || hit.t >= tHit) continue;
-        float pdf = cameraRay || bsdfPdf < 0.0 ? 0.0 : hit.pdf * lightChance(scene, light, ray.origin, n);
+        float pdf = cameraRay || bsdfPdf < 0.0 ? 0.0 : hit.pdf * lightChance(scene, light, Receiver(ray.origin, n, categories));
         sum += hitWeight(light, cameraRay ? -1.0 : bsdfPdf, pdf) * shapeRadiance(scene, light, hit.st, d);
     }
     return sum;
+}
+
+// Weight of the emission of a surface that a ray has met, as hitWeight(). `n`, `categories`: of the surface that it left.
+float emissionWeight(SceneRecord scene, Hit hit, Ray ray, float bsdfPdf, vec3 n, uint categories) {
+    if (bsdfPdf < 0.0 || scene.instanceLights == 0ul) return 1.0;
+    uint index = UintRef(scene.instanceLights).v[hit.instance];
+    if (index == NO_INDEX) return 1.0;
+    LightRecord light = LightRef(scene.lights).v[index];
+    float pdf = meshPdf(scene, light, hit, ray.direction);
+    return hitWeight(light, bsdfPdf, pdf * lightChance(scene, light, Receiver(ray.origin, n, categories)));
 }
 
 // Radiance of dome and distant lights for a ray that left the scene. Distant lights are not seen by camera rays; domes

@@ -3,6 +3,7 @@
 #define HIPR_LIGHT_SAMPLE_GLSL
 #include "light/environment.glsl"
 #include "light/linking.glsl"
+#include "light/mesh.glsl"
 #include "light/shaping.glsl"
 #include "light/shapes.glsl"
 #include "light/tree.glsl"
@@ -15,6 +16,7 @@ struct LightSample {
     float pdf;       // per solid angle, choice of the light included
     vec2 lobeScale;  // the light's diffuse and specular multipliers, for evalBsdfScaled
     uint64_t shadow; // LightRecord::shadow
+    Hit end;         // of a mesh: the point, whose emission is not in `radiance`; instance NO_INDEX: another light
     bool exclusive;  // rays that meet the light do not count it (see isExclusive): the sample has weight 1
 };
 
@@ -47,10 +49,10 @@ vec3 shapeRadiance(SceneRecord scene, LightRecord light, vec2 st, vec3 wi) {
 
 // The light for u in [0, 1): by the tree, or in proportion to the chances of lights, the first whose sum of chances is
 // above u. `chance` is that of the choice, 0 if it is none.
-uint chooseLight(SceneRecord scene, vec3 p, vec3 n, float u, out float chance) {
+uint chooseLight(SceneRecord scene, Receiver receiver, float u, out float chance) {
     if (u < scene.lightTreeChance) {
         uint light;
-        chance = scene.lightTreeChance * walkLightTree(scene, p, n, NO_INDEX, u / scene.lightTreeChance, light);
+        chance = scene.lightTreeChance * walkLightTree(scene, receiver, NO_INDEX, u / scene.lightTreeChance, light);
         return light;
     }
     FloatRef sums = FloatRef(scene.lightCumulative);
@@ -109,7 +111,7 @@ bool sampleEnvironment(SceneRecord scene, LightRecord light, vec2 u, inout Light
 bool sampleLight(SceneRecord scene, vec3 p, vec3 n, uint categories, vec4 u, out LightSample ls) {
     if (scene.lightCount == 0u) return false;
     float chance;
-    uint chosen = chooseLight(scene, p, n, u.x, chance);
+    uint chosen = chooseLight(scene, Receiver(p, n, categories), u.x, chance);
     if (!(chance > 0.0)) return false;
     LightRecord light = LightRef(scene.lights).v[chosen];
     if (!inCategory(scene, categories, light.category)) return false;
@@ -117,6 +119,7 @@ bool sampleLight(SceneRecord scene, vec3 p, vec3 n, uint categories, vec4 u, out
     ls.lobeScale = vec2(light.diffuse, light.specular);
     ls.exclusive = isExclusive(light);
     ls.distance = INFINITE_DISTANCE;
+    ls.end.instance = NO_INDEX;
     bool seen;
     if (light.kind == LIGHT_DOME) {
         seen = sampleEnvironment(scene, light, u.yz, ls);
@@ -124,6 +127,10 @@ bool sampleLight(SceneRecord scene, vec3 p, vec3 n, uint categories, vec4 u, out
         seen = sampleDistant(light, u.yz, ls);
     } else if (light.kind == LIGHT_THIN) {
         seen = sampleThin(light, p, u.y, ls);
+    } else if (light.kind == LIGHT_MESH) {
+        seen = sampleMesh(scene, light, p, u.yz, ls.wi, ls.pdf, ls.end);
+        ls.distance = ls.end.t;
+        ls.radiance = light.radiance;
     } else {
         LightPoint point;
         seen = sampleShape(light, p, u.yz, ls.wi, point);

@@ -6,6 +6,7 @@
 #ifndef HIPR_LIGHT_TREE_GLSL
 #define HIPR_LIGHT_TREE_GLSL
 #extension GL_EXT_control_flow_attributes : require
+#include "light/linking.glsl"
 #include "shared/references.glsl"
 
 // Cosine of max(0, a - b) for angles up to 180 degrees.
@@ -41,16 +42,27 @@ float leftChance(float left, float right) {
     return 1.0 / (1.0 + ratio);
 }
 
+// What receives light: a point, its normal (0: light reaches it from all sides), and its set of categories.
+struct Receiver {
+    vec3 p, n;
+    uint categories;
+};
+
+// The same of a node for an object with the links `links`; 0 also where the node's lights are linked to others.
+float importanceOf(LightNode node, Receiver receiver, uint links) {
+    return (node.links & links) != 0u ? lightImportance(node, receiver.p, receiver.n) : 0.0;
+}
+
 // From the root to the leaf that `u` chooses, or, where it is not NO_INDEX, to the leaf `target`. Returns the chance of coming
 // there, and its light; 0: no light.
-float walkLightTree(SceneRecord scene, vec3 p, vec3 n, uint target, float u, out uint light) {
+float walkLightTree(SceneRecord scene, Receiver receiver, uint target, float u, out uint light) {
     LightNodeRef nodes = LightNodeRef(scene.lightNodes);
     float chance = 1.0;
-    uint i = 0u;
+    uint i = 0u, links = linksOf(scene, receiver.categories);
     light = nodes.v[0].light;
     [[dont_unroll]] while (light == NO_INDEX) {
         uint left = i + 1u, right = nodes.v[left].next;
-        float share = leftChance(lightImportance(nodes.v[left], p, n), lightImportance(nodes.v[right], p, n));
+        float share = leftChance(importanceOf(nodes.v[left], receiver, links), importanceOf(nodes.v[right], receiver, links));
         bool goLeft = target == NO_INDEX ? u < share : target < right;
         float taken = share < 0.0 ? 0.0 : goLeft ? share : 1.0 - share;
         if (!(taken > 0.0)) return 0.0;
@@ -62,11 +74,11 @@ float walkLightTree(SceneRecord scene, vec3 p, vec3 n, uint target, float u, out
     return chance;
 }
 
-// The chance that sampleLight chooses `light` at `p`.
-float lightChance(SceneRecord scene, LightRecord light, vec3 p, vec3 n) {
+// The chance that sampleLight chooses `light`.
+float lightChance(SceneRecord scene, LightRecord light, Receiver receiver) {
     if (scene.lightTreeChance == 0.0 || light.leaf == NO_INDEX) return light.selectPdf;
     uint same;
-    return light.selectPdf * walkLightTree(scene, p, n, light.leaf, 0.0, same);
+    return light.selectPdf * walkLightTree(scene, receiver, light.leaf, 0.0, same);
 }
 
 // Normals as they are kept with a path: octahedral, 15 bits an axis, and bit 31 to tell that there is one.

@@ -1,4 +1,4 @@
-// Lights. Area lights come first in the table, then thin ones, then infinite ones (see SceneRecord).
+// Lights. Area lights come first in the table, then thin ones, then meshes, then infinite ones (see SceneRecord).
 #ifndef HIPR_SHARED_LIGHT_H
 #define HIPR_SHARED_LIGHT_H
 #include "language.h"
@@ -11,6 +11,7 @@ HIPR_CONST uint LIGHT_SPHERE = 3u;
 HIPR_CONST uint LIGHT_DISK = 4u;
 HIPR_CONST uint LIGHT_CYLINDER = 5u;
 HIPR_CONST uint LIGHT_THIN = 6u;     // a point, or a line along local X: LightDesc::thin
+HIPR_CONST uint LIGHT_MESH = 7u;     // an instance that shows an emissive material: see shaders/light/mesh.glsl
 
 // What a light's radiance is multiplied by, by the direction it leaves in: see shaders/light/shaping.glsl.
 struct ShapingRecord {
@@ -26,7 +27,7 @@ struct ShapingRecord {
     uint profileColumns;
 };
 
-// A node of the tree of area and thin lights, in depth-first order: see shaders/light/tree.glsl.
+// A node of the tree of all lights but infinite ones, in depth-first order: see shaders/light/tree.glsl.
 struct LightNode {
     vec3 lo;
     float power;
@@ -36,6 +37,7 @@ struct LightNode {
     float cosSpread;         // cosine of that cone's angle
     float cosEmission;       // of the angle off the normals within which light leaves
     uint light;              // leaf: index of a LightRecord, NO_INDEX: has children
+    uint links;              // marks of the categories that its lights light (renderer/shading/categories.h), NO_INDEX: all
 };
 
 // Shadows that are not plain: what gets through occluders and which objects are any. See shaders/light/shadow.glsl.
@@ -63,13 +65,16 @@ struct LightRecord {
     uint light;              // LightId value
     float diffuse;
     float specular;
-    uint64_t distribution;   // dome: piecewise-constant sampling table, see shaders/light/environment.glsl
+    uint64_t distribution;   // dome: piecewise-constant sampling table, see shaders/light/environment.glsl; mesh: sums of
+                             // the chances of its triangles, float[triangleCount + 1] from 0 to 1
     uint distributionWidth;
     uint distributionHeight;
     uint64_t shaping;        // ShapingRecord, 0: none
     uint64_t shadow;         // ShadowRecord, 0: plain shadows
     uint category;           // of the objects that are lit, NO_INDEX: all
-    uint leaf;               // area and thin lights: their LightNode
+    uint leaf;               // in the tree of lights: its LightNode
+    uint instance;           // mesh: its InstanceRecord
+    uint triangleCount;      // mesh
 };
 
 HIPR_SHARED_END

@@ -83,7 +83,8 @@ struct SceneRecord {
     uint64_t textures;       // TextureRecord[]
     uint64_t lights;         // LightRecord[]  (shaders/shared/light.h)
     uint64_t lightCumulative;// float[lightCount]: sums of the chances of lights, those of the tree as one
-    uint64_t lightNodes;     // LightNode[lightNodeCount]: area and thin lights
+    uint64_t lightNodes;     // LightNode[lightNodeCount]: all lights but infinite ones
+    uint64_t instanceLights; // uint[instanceCount]: the LIGHT_MESH of an instance, NO_INDEX: none; or 0: there is none
     uint64_t bvh;            // root of the GLSL traversal's structures, or 0
     uint instanceCount;
     uint lightCount;
@@ -97,12 +98,13 @@ struct SceneRecord {
     uint categoryWords;
     uint64_t specularAlbedo; // vec2[]: see renderer/shading/albedo.h
     uint64_t openPbrAlbedo;  // tables of renderer/shading/openpbr_albedo.h; 0 without a material of that model
-    uint64_t categorySets;   // uint[][categoryWords]: bits of sets of categories, see renderer/shading/categories.h
+    uint64_t categorySets;   // uint[][1 + categoryWords]: mark and bits of sets of categories, see renderer/shading/categories.h
 };
 
 HIPR_CONST uint SCENE_HAS_NON_OPAQUE = 1u;
 HIPR_CONST uint SCENE_DOME_HIDDEN_FROM_CAMERA = 2u;
 HIPR_CONST uint SCENE_HAS_SHADOWS_TO_WALK = 4u; // some light has a ShadowRecord
+HIPR_CONST uint SCENE_HAS_MESH_LIGHTS = 8u;
 
 HIPR_SHARED_END
 #endif

@@ -186,6 +186,8 @@ struct TraceRecord {
     uint64_t hits;           // Hit[]
     uint64_t shadowRays;     // Ray[]
     uint64_t shadowWork;     // ShadowWork[]
+    uint64_t shadowEnds;     // Hit[]: the emissive surface at which a shadow ray ends and by whose emission ShadowWork::contribution
+                             // is to be multiplied, instance NO_INDEX: none. Only in scenes with SCENE_HAS_MESH_LIGHTS
     uint64_t shadowResults;  // uint[]
     uint64_t transmitRays[2];
     uint64_t transmitWork[2];// TransmitWork[]

@@ -15,6 +15,14 @@ vec3 offsetTowards(Surface surface, vec3 direction) {
     return offsetOrigin(surface.position, dot(surface.ng, direction) < 0.0 ? -surface.ng : surface.ng);
 }
 
+// Whether a path that goes on in the direction `wi` is in no medium then. Surfaces that emit are found through media by the
+// path itself alone: light samples know nothing of what a medium takes away.
+bool goesFree(Path path, Surface surface, vec3 wi) {
+    if (!surface.openPbr || surface.thinWalled || dot(wi, surface.ng) >= 0.0)
+        return (path.medium & MEDIUM_KIND) == MEDIUM_NONE;
+    return surface.inside;
+}
+
 // Next event estimation: the light of one emitter, to be weighted against finding it by BSDF sampling.
 void sampleDirectLight(TraceRecord trace, SceneRecord scene, Path path, Surface surface, vec3 wo, vec4 u) {
     LightSample light;
@@ -24,12 +32,14 @@ void sampleDirectLight(TraceRecord trace, SceneRecord scene, Path path, Surface 
     const vec3 f = evalBsdfScaled(surface, wo, light.wi, light.lobeScale, bsdfPdf);
     const vec3 contribution = path.throughput * f * light.radiance / light.pdf;
     if (contribution == vec3(0.0)) return;
+    if (light.end.instance != NO_INDEX && !goesFree(path, surface, light.wi)) return;
     const uint i = appendToQueue(trace, QUEUE_SHADOW + push.turn);
     RayRef(trace.shadowRays).v[i] =
         Ray(offsetTowards(surface, light.wi), 0.0, light.wi, light.distance * (1.0 - 1e-4));
     ShadowWorkRef(trace.shadowWork).v[i] =
         ShadowWork(contribution, path.depth > 0u ? path.slot | SHADOW_INDIRECT : path.slot, light.shadow,
                    lightMisWeight(light, bsdfPdf), 0u);
+    if (scene.instanceLights != 0ul) HitRef(trace.shadowEnds).v[i] = light.end;
 }
 
 // What kind of scattering a lobe (LOBE_*) did towards `wi`, for discovery.
@@ -109,6 +119,15 @@ void disperse(TraceRecord trace, SceneRecord scene, inout Path path, inout Surfa
     path.medium |= MEDIUM_DISPERSED;
 }
 
+// Adds what a surface emits towards a path that met it.
+void addEmission(TraceRecord trace, SceneRecord scene, Path path, Ray ray, Hit hit, vec3 emission) {
+    if (emission == vec3(0.0)) return;
+    const float bsdfPdf = (path.medium & MEDIUM_KIND) == MEDIUM_NONE ? path.bsdfPdf : -1.0; // see goesFree()
+    const float weight =
+        emissionWeight(scene, hit, ray, bsdfPdf, unpackLightNormal(path.lightNormal), path.categories);
+    addRadiance(trace, path.slot, path.throughput * emission * weight, path.depth > 1u);
+}
+
 // What a surface does with a path. False: the path ends here.
 bool scatter(TraceRecord trace, SceneRecord scene, inout Path path, inout Ray ray, Hit hit) {
     Surface surface = evaluateSurface(scene, hit, ray);
@@ -126,7 +145,7 @@ bool scatter(TraceRecord trace, SceneRecord scene, inout Path path, inout Ray ra
         PathRef(trace.paths).v[path.slot].albedo = surface.albedo;
         if (keepsSeen(trace, path)) keepSeenSurface(trace, path, surface);
     }
-    addRadiance(trace, path.slot, path.throughput * surface.emission, path.depth > 1u);
+    addEmission(trace, scene, path, ray, hit, surface.emission);
     if (path.depth >= trace.maxDepth) return false;
     disperse(trace, scene, path, surface);
     path.categories = InstanceRef(scene.instances).v[hit.instance].categories;

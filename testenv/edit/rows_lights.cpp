@@ -124,6 +124,40 @@ uniform token[] xformOpOrder = ["xformOp:translate"])"),
     };
 }
 
+/// Meshes that emit, and so are lights.
+Rows meshes() {
+    const std::string lamp = "/World/Geo/Lamp", surface = "/World/Looks/Lamp/Surface";
+    const Edit roundGlows = in("/World/Geo/Round", "rel material:binding = </World/Looks/Lamp>");
+    return {
+        {"MeshLightColor", in(surface, "color3f inputs:emissiveColor = (0.2, 2, 9)")},
+        {"MeshLightOff", in(surface, "color3f inputs:emissiveColor = (0, 0, 0)")},
+        {"MeshLightOn", in(surface, "color3f inputs:emissiveColor = (2, 1.5, 1)"),
+         in(surface, "color3f inputs:emissiveColor = (0, 0, 0)")},
+        {"MeshLightOpacity", in(surface, "float inputs:opacity = 0.4")},
+        {"MeshLightOtherMaterial", in(lamp, "rel material:binding = </World/Looks/Green>")},
+        {"MeshLightMore", roundGlows},
+        {"MeshLightFewer", removeProperty("/World/Geo/Round.material:binding"), roundGlows},
+        {"MeshLightMoves", in(lamp, "double3 xformOp:translate = (3.5, 2.5, 0.8)")},
+        {"MeshLightScales", in(lamp, R"(float3 xformOp:scale = (2, 0.5, 1)
+uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scale"])")},
+        {"MeshLightHidden", in(lamp, R"(token visibility = "invisible")")},
+        {"MeshLightShown", in(lamp, R"(token visibility = "inherited")"),
+         in(lamp, R"(token visibility = "invisible")")},
+        {"MeshLightPoints", in(lamp, "point3f[] points = [(-0.5, -0.2, 0), (0.2, -0.2, 0), (-0.2, 0.2, 0.3), "
+                                     "(0.2, 0.4, 0)]")},
+        {"MeshLightFaces", in(lamp, "int[] faceVertexCounts = [3]\nint[] faceVertexIndices = [0, 1, 3]")},
+        {"MeshLightRefined", view([](View& v) { v.refineLevel = 0; }), roundGlows},
+        {"MeshLightSubset", in("/World/Geo/Subsets/First", "rel material:binding = </World/Looks/Lamp>")},
+        {"MeshLightSubsetFaces", in("/World/Geo/Subsets/First", "int[] indices = [1, 3]"),
+         in("/World/Geo/Subsets/First", "rel material:binding = </World/Looks/Lamp>")},
+        {"MeshLightInstances", in("/World/Inst", R"(rel material:binding = </World/Looks/Lamp> (
+bindMaterialAs = "strongerThanDescendants"))")},
+        {"MeshLightRemoved", removePrim(lamp)},
+        {"MeshLightRenamedPastOthers", rename(lamp, "/World/Geo/Aaa"), {}, false},
+        {"MeshLightAlone", removePrim("/World/Lights")},
+    };
+}
+
 Rows presence() {
     return {
         {"LightRemovedFirst", removePrim(lights + "Disk")},
@@ -173,7 +207,7 @@ uniform token[] xformOpOrder = ["xformOp:translate"]
 
 Rows lightRows() {
     Rows rows = attributes();
-    for (const Rows& more : {shaping(), shadows(), presence()})
+    for (const Rows& more : {shaping(), shadows(), meshes(), presence()})
         rows.insert(rows.end(), more.begin(), more.end());
     return rows;
 }

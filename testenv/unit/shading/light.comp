@@ -63,10 +63,10 @@ void main() {
     result.chosen = NO_INDEX;
     result.chance = result.chanceOf = 0.0;
     if (scene.lightTreeChance > 0.0) {
-        result.chance = walkLightTree(scene, push.point, push.normal, NO_INDEX, sobol4(uvec2(3, 1), i, 2u, 0u).x, result.chosen);
+        result.chance = walkLightTree(scene, Receiver(push.point, push.normal, 0u), NO_INDEX, sobol4(uvec2(3, 1), i, 2u, 0u).x, result.chosen);
         const uint leaf = LightRef(scene.lights).v[i % (scene.lightCount - scene.infiniteLightCount)].leaf;
         uint same;
-        result.chanceOf = walkLightTree(scene, push.point, push.normal, leaf, 0.0, same);
+        result.chanceOf = walkLightTree(scene, Receiver(push.point, push.normal, 0u), leaf, 0.0, same);
     }
     OutcomeRef(push.outcomes).v[i] = result;
 }

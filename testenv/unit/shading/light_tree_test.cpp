@@ -105,6 +105,36 @@ TEST(LightTree, LosesNoLight) {
     }
 }
 
+/// Lights that are linked to other objects than the one here take no samples away, be they few or many.
+TEST(LightTree, PassesOverLinkedLights) {
+    for (const size_t count : {6u, 200u}) {
+        std::vector<LightDesc> lights = crowd(count);
+        for (size_t i = 0; i < lights.size(); ++i) {
+            lights[i].shaping = {};
+            if (i != 5) lights[i].lightLink = "/light" + std::to_string(i) + ".lightLink";
+        }
+        const LitScene scene(lights), alone({lights[5]});
+        ASSERT_GT(scene.record().lightTreeChance, 0.f) << count;
+        size_t samples = 0, drawn = 0;
+        for (const LightOutcome& o : scene.run({0, 0, -3}, {0, 0, 1}, 4096)) {
+            samples += o.pdf > 0.f;
+            drawn += o.chance > 0.f;
+            if (o.chance > 0.f) {
+                EXPECT_EQ(o.chance, 1.f);
+            }
+        }
+        size_t possible = 0;
+        for (const LightOutcome& o : alone.run({0, 0, -3}, {0, 0, 1}, 4096))
+            possible += o.pdf > 0.f;
+        EXPECT_EQ(drawn, 4096u) << count;
+        EXPECT_EQ(samples, possible) << count;
+        EXPECT_GT(possible, 0u);
+        const Irradiance linked = irradiance(scene, {0, 0, -3}, {0, 0, 1});
+        EXPECT_NEAR(linked.combined.y, irradiance(alone, {0, 0, -3}, {0, 0, 1}).combined.y,
+                    0.01 * linked.combined.y);
+    }
+}
+
 TEST(LightTree, StandsBesideInfiniteLights) {
     std::vector<LightDesc> lights = crowd(40);
     LightDesc dome;
