@@ -4,7 +4,7 @@
 Usage: many_lights.py HIPRRECORD [COUNT ...]
 
 A floor with balls under COUNT small spheres of light, spread over it, whose power adds up to the same. What a sample takes
-is the difference between pictures of 2 and of 6 samples, so that start-up and set-up do not count.
+is the difference between pictures of 4 and of 36 samples, so that start-up and set-up do not count.
 """
 import os
 import random
@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tempfile
 
-SAMPLES = (2, 6)
+SAMPLES = (4, 36)
 WIDTH = 160
 
 
@@ -61,7 +61,7 @@ def processor_seconds(recorder, stage, samples, picture):
 
 
 def main():
-    recorder, counts = sys.argv[1], [int(n) for n in sys.argv[2:]] or [10, 1000]
+    recorder, counts = sys.argv[1], [int(n) for n in sys.argv[2:]] or [10, 1000, 10000]
     print(f"{'lights':>8}{'s a sample':>12}")
     with tempfile.TemporaryDirectory() as folder:
         for count in counts:

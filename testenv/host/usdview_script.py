@@ -118,6 +118,18 @@ def check_splats(viewer):
     print("ok: splats are picked and framed")
 
 
+def check_camera_light(viewer):
+    """A surface that does not emit, in a scene without lights."""
+    plain = UsdGeom.Mesh.Define(viewer.stage, "/World/Plain")
+    plain.CreateFaceVertexCountsAttr([4])
+    plain.CreateFaceVertexIndicesAttr([0, 1, 2, 3])
+    plain.CreatePointsAttr([(-1.4, -1.8, 1), (-1.0, -1.8, 1), (-1.0, -1.4, 1), (-1.4, -1.4, 1)])
+    plain.CreateDisplayColorAttr([(0, 0, 1)])
+    viewer.converge()
+    # Its colour and what it mirrors of the camera's light; unlit it would be black, and so grey.
+    viewer.expect("lit by the camera", mixed=[(-1.2, -1.6)], blue=[BLUE])
+
+
 def check_settings(viewer):
     keys = [setting.key for setting in viewer.view.GetRendererSettingsList()]
     assert "convergedSamplesPerPixel" in keys, "settings: %s" % keys
@@ -137,6 +149,7 @@ def testUsdviewInputFunction(appController):
         for check in (check_picture, check_move, check_visibility, check_frame, check_pick):
             check(viewer)
         if usd_tool.RENDERER == "HiPR":  # others restart
+            check_camera_light(viewer)
             check_splats(viewer)
             if os.environ.get("HIPR_TEST_OUT"):
                 viewer.controller.GrabViewportShot().save(os.path.join(os.environ["HIPR_TEST_OUT"], "usdview.png"))
