@@ -59,7 +59,7 @@ enum class OpenPbrInput : uint32_t {
 enum class InputUse : uint32_t {
     Full,     ///< constants, textures and primvars
     Constant, ///< the constant alone: what drives the input otherwise has no effect
-    Texture,  ///< normal maps: a texture alone
+    Texture,  ///< normal maps: a texture or a graph alone
     None      ///< no effect yet
 };
 

@@ -49,7 +49,20 @@ void dumpInput(SceneDump::Element& out, const char* input, const MaterialInput& 
         out.fact(input, "texture", name(value.channel));
         dumpTexture(out, input, value.texture);
         break;
+    case MaterialInput::Source::Graph:
+        out.fact(input, "graph", value.node);
+        break;
     }
+}
+
+void dumpGraph(SceneDump::Element& out, const MaterialGraph& graph) {
+    for (const GraphNode& node : graph.nodes) {
+        out.fact("node", node.op, node.immediate);
+        for (size_t k = 0; k < graphOperandCount(node.op); ++k)
+            out.fact("operand", node.operands[k].node, node.operands[k].constant);
+    }
+    for (const MaterialInput& read : graph.reads)
+        dumpInput(out, "read", read);
 }
 
 } // namespace
@@ -150,6 +163,7 @@ void dumpMesh(SceneDump& dump, const TriangleMesh& mesh) {
 
 void dumpMaterial(SceneDump& dump, const MaterialDesc& material, bool nonOpaque) {
     SceneDump::Element& out = dump.element("material", material.name);
+    dumpGraph(out, material.graph);
     if (material.model == MaterialModel::OpenPbr) {
         out.fact("model", "OpenPBR");
         for (size_t i = 0; i < openPbrInputs().size(); ++i)

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "renderer/shading/graph_program.h"
 #include "renderer/shading/media.h"
-#include "shaders/shared/scene.h"
 
 namespace hipr {
 
@@ -88,13 +88,13 @@ glm::vec4 checkedConstant(const char* name, const MaterialInput& input, const gl
     return value;
 }
 
-gpu::InputNode describeNode(const MaterialInput& input, const glm::vec4& constant, NameTable& names) {
+gpu::InputNode describeNode(const MaterialInput& input, NameTable& names) {
     gpu::InputNode node{};
     node.texture = gpu::NO_INDEX;
     node.uvAxisU = {1.f, 0.f};
     node.uvAxisV = {0.f, 1.f};
     node.channel = uint32_t(input.channel);
-    node.fallback = constant;
+    node.fallback = input.constant;
     if (input.source == Source::Primvar) {
         node.primvar = names.intern(input.primvar);
         return node;
@@ -120,12 +120,12 @@ bool constantOpacity(const ResolvedMaterial& m, const TextureStore& textures, fl
     if (input.kind == Source::Texture) {
         // The alpha of a picture without transparency, a frequent connection, is no reason to look through
         // surfaces.
-        const gpu::InputNode& node = input.node;
-        if (node.channel != uint32_t(Channel::A) || !textures.opaque(input.texture) ||
-            textures.range(input.texture).udimTiles)
+        const ResolvedRead& read = m.reads[m.opacityRead];
+        if (read.node.channel != uint32_t(Channel::A) || !textures.opaque(read.texture) ||
+            textures.range(read.texture).udimTiles)
             return false;
-        opacity = node.scale.w + node.bias.w;
-    } else if (input.kind == Source::Primvar) {
+        opacity = read.node.scale.w + read.node.bias.w;
+    } else if (input.kind != Source::Constant) {
         return false;
     }
     if (threshold.constant.x > 0.f) opacity = opacity >= threshold.constant.x ? 1.f : 0.f;
@@ -173,7 +173,9 @@ const char* shortfall(const OpenPbrInputInfo& info, const MaterialInput& input) 
     case InputUse::Constant:
         return driven ? "its constant alone is used" : "";
     case InputUse::Texture:
-        return standard || input.source == Source::Texture ? "" : "it is used from textures alone";
+        return standard || input.source == Source::Texture || input.source == Source::Graph
+                   ? ""
+                   : "it is used from normal maps alone";
     case InputUse::None:
         break;
     }
@@ -185,26 +187,58 @@ struct Resolver {
     const MaterialDesc& desc;
     NameTable& names;
     TextureStore& textures;
-    std::string complaints;
+    std::string complaints{};
+    std::vector<ProgramTarget> targets{};
 
-    ResolvedInput resolve(const char* name, const MaterialInput& input, const glm::vec4& standard,
-                          float least, float most) {
-        ResolvedInput resolved;
-        resolved.kind = input.source;
-        resolved.constant = checkedConstant(name, input, standard, least, most, complaints);
-        if (input.source == Source::Constant) return resolved;
-        resolved.node = describeNode(input, resolved.constant, names);
-        const TextureDesc& t = input.texture;
-        if (input.source == Source::Texture)
-            resolved.texture = textures.acquire({t.path, t.colorSpace, t.wrapS, t.wrapT, false}, desc.name);
+    ResolvedInput resolve(const char* name, MaterialInput input, const glm::vec4& standard, float least,
+                          float most, uint32_t target) {
+        input.constant = checkedConstant(name, input, standard, least, most, complaints);
+        ResolvedInput resolved{input.source, input.constant};
+        if (input.source == Source::Texture) {
+            resolved.scale = input.texture.scale;
+            resolved.bias = input.texture.bias;
+        }
+        const bool graph = input.source == Source::Graph;
+        if (input.source == Source::Constant ||
+            (target == gpu::INPUT_NORMAL && input.source == Source::Primvar))
+            return resolved;
+        const bool presence = target == gpu::INPUT_OPACITY || target == gpu::INPUT_OPACITY_THRESHOLD;
+        if (target == gpu::INPUT_NORMAL && graph) target = gpu::INPUT_WORLD_NORMAL;
+        targets.push_back({target, std::move(input), presence});
         return resolved;
+    }
+
+    /// Makes the program, and acquires what it reads.
+    void program(ResolvedMaterial& out, const MessageSink& messages) {
+        GraphProgram made = compileGraph(desc.graph, std::move(targets), uint32_t(out.inputs.size()));
+        out.steps = std::move(made.steps);
+        out.presenceSteps = made.presenceSteps;
+        out.stepConstants = std::move(made.constants);
+        for (const MaterialInput& input : made.reads) {
+            ResolvedRead& read = out.reads.emplace_back();
+            read.node = describeNode(input, names);
+            read.textured = input.source == Source::Texture;
+            const TextureDesc& t = input.texture;
+            if (read.textured)
+                read.texture = textures.acquire({t.path, t.colorSpace, t.wrapS, t.wrapT, false}, desc.name);
+        }
+        for (const gpu::GraphStep& step : out.steps)
+            if (step.code >> 16 == gpu::INPUT_OPACITY) out.opacityRead = step.immediate;
+        for (const uint32_t target : made.dropped) {
+            if (target < out.inputs.size()) out.inputs[target].kind = Source::Constant;
+            if (messages)
+                messages(Severity::Warning, desc.name,
+                         "one of its inputs is driven by too large a network (more than " +
+                             std::to_string(gpu::GRAPH_REGISTERS) +
+                             " values at a time); the input keeps its own value");
+        }
     }
 
     void preview(std::vector<ResolvedInput>& inputs) {
         static const MaterialDesc standard;
         for (const PreviewRow& row : PreviewRows)
-            inputs.push_back(
-                resolve(row.name, desc.*row.member, (standard.*row.member).constant, row.least, row.most));
+            inputs.push_back(resolve(row.name, desc.*row.member, (standard.*row.member).constant, row.least,
+                                     row.most, uint32_t(inputs.size())));
     }
 
     /// Of an input that takes effect by its constant alone.
@@ -238,8 +272,8 @@ struct Resolver {
                 continue;
             }
             const OpenPbrInputInfo& info = openPbrInputs()[size_t(which)];
-            inputs.push_back(
-                resolve(info.name, openPbrInput(desc, which), info.value, info.least, info.most));
+            inputs.push_back(resolve(info.name, openPbrInput(desc, which), info.value, info.least, info.most,
+                                     uint32_t(inputs.size())));
         }
         addTangent(inputs);
     }
@@ -253,8 +287,7 @@ struct Resolver {
         MaterialInput reader;
         reader.source = Source::Primvar;
         reader.primvar = normal.source == Source::Texture ? normal.texture.uvPrimvar : "st";
-        inputs[gpu::INPUT_TANGENT].kind = Source::Primvar;
-        inputs[gpu::INPUT_TANGENT].node = describeNode(reader, glm::vec4(0.f), names);
+        targets.push_back({gpu::INPUT_TANGENT, reader});
     }
 };
 
@@ -279,7 +312,7 @@ ResolvedMaterial resolveMaterial(const MaterialDesc& desc, NameTable& names, Tex
                                  const MessageSink& messages) {
     ResolvedMaterial result;
     result.model = desc.model;
-    Resolver resolver{desc, names, textures, {}};
+    Resolver resolver{desc, names, textures};
     if (desc.model == MaterialModel::OpenPbr) {
         result.thinWalled = resolver.constant(OpenPbrInput::GeometryThinWalled).x > 0.5f;
         resolver.openPbr(result.inputs);
@@ -289,6 +322,7 @@ ResolvedMaterial resolveMaterial(const MaterialDesc& desc, NameTable& names, Tex
         result.opacityMode = desc.opacityMode;
         resolver.preview(result.inputs);
     }
+    resolver.program(result, messages);
     if (!messages) return result;
     if (!resolver.complaints.empty())
         messages(Severity::Warning, desc.name,
@@ -300,7 +334,7 @@ ResolvedMaterial resolveMaterial(const MaterialDesc& desc, NameTable& names, Tex
     const ResolvedInput& normal = result.inputs[gpu::INPUT_NORMAL];
     const bool plainNormal =
         normal.kind == Source::Constant && normal.constant.x == 0.f && normal.constant.y == 0.f;
-    if (normal.kind != Source::Texture && !plainNormal)
+    if (normal.kind == Source::Primvar || (normal.kind == Source::Constant && !plainNormal))
         messages(Severity::Warning, desc.name, "material input normal is used from textures alone; ignored");
     return result;
 }
@@ -310,16 +344,17 @@ MaterialRow describeMaterial(const ResolvedMaterial& material, const TextureStor
     row.flags = materialFlags(material, textures);
     row.interior = material.interior;
     row.subsurface = material.subsurface;
-    for (size_t i = 0; i < material.inputs.size(); ++i) {
-        const ResolvedInput& input = material.inputs[i];
+    row.steps = material.steps;
+    row.presenceSteps = material.presenceSteps;
+    for (const ResolvedInput& input : material.inputs)
         row.constants.push_back(input.constant);
-        if (input.kind == Source::Constant) continue;
-        row.nodes.push_back(input.node);
-        row.nodes.back().target = uint32_t(i);
-        if (input.kind != Source::Texture) continue;
-        const TextureRange range = textures.range(input.texture);
-        row.nodes.back().texture = range.first;
-        row.nodes.back().udimTiles = range.udimTiles;
+    row.constants.insert(row.constants.end(), material.stepConstants.begin(), material.stepConstants.end());
+    for (const ResolvedRead& read : material.reads) {
+        gpu::InputNode& node = row.nodes.emplace_back(read.node);
+        if (!read.textured) continue;
+        const TextureRange range = textures.range(read.texture);
+        node.texture = range.first;
+        node.udimTiles = range.udimTiles;
     }
     return row;
 }
@@ -335,7 +370,7 @@ float emittedLuminance(const ResolvedMaterial& material) {
     const auto typical = [](const ResolvedInput& input) {
         if (input.kind == Source::Constant) return input.constant;
         if (input.kind != Source::Texture) return glm::vec4(1.f);
-        return glm::max(glm::abs(input.node.scale + input.node.bias), glm::abs(input.node.bias));
+        return glm::max(glm::abs(input.scale + input.bias), glm::abs(input.bias));
     };
     glm::vec4 emitted = typical(material.inputs[gpu::INPUT_EMISSION_COLOR]);
     if (material.model == MaterialModel::OpenPbr)

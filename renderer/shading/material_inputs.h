@@ -7,21 +7,34 @@
 #include "renderer/api/material.h"
 #include "renderer/shading/names.h"
 #include "renderer/shading/textures.h"
+#include "shaders/shared/graph.h"
 #include "shaders/shared/material.h"
+#include "shaders/shared/scene.h"
 
 namespace hipr {
 
-/// A checked input. `texture` is acquired from a TextureStore.
+/// A checked input.
 struct ResolvedInput {
     MaterialInput::Source kind = MaterialInput::Source::Constant;
     glm::vec4 constant{0.f};
-    uint32_t texture = 0;
+    glm::vec4 scale{1.f}, bias{0.f}; ///< of a texture
+};
+
+/// What a program reads.
+struct ResolvedRead {
+    bool textured = false;
+    uint32_t texture = 0;  ///< acquired from a TextureStore
     gpu::InputNode node{}; ///< without the texture's record
 };
 
 struct ResolvedMaterial {
     MaterialModel model = MaterialModel::UsdPreviewSurface;
     std::vector<ResolvedInput> inputs; ///< by gpu::INPUT_*: gpu::PREVIEW_INPUT_COUNT or gpu::INPUT_COUNT
+    std::vector<ResolvedRead> reads;
+    std::vector<gpu::GraphStep> steps;
+    uint32_t presenceSteps = 0;
+    std::vector<glm::vec4> stepConstants;
+    uint32_t opacityRead = gpu::NO_INDEX; ///< which read opacity is, if it is a texture
     bool specularWorkflow = false;
     bool thinWalled = false;
     gpu::MediumRecord interior{}, subsurface{};
@@ -39,6 +52,8 @@ struct MaterialRow {
     gpu::MediumRecord interior{}, subsurface{};
     std::vector<glm::vec4> constants;
     std::vector<gpu::InputNode> nodes;
+    std::vector<gpu::GraphStep> steps;
+    uint32_t presenceSteps = 0;
 };
 
 /// Valid after TextureStore::commit().
@@ -46,8 +61,8 @@ MaterialRow describeMaterial(const ResolvedMaterial& material, const TextureStor
 
 bool isEmissive(const ResolvedMaterial& material);
 
-/// About the luminance of what it emits, in nits, above 0 and finite if it is emissive: what textures and
-/// primvars hold counts as 1.
+/// About the luminance of what it emits, in nits, above 0 and finite if it is emissive: what textures,
+/// primvars and graphs give counts as 1.
 float emittedLuminance(const ResolvedMaterial& material);
 
 } // namespace hipr

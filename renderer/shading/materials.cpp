@@ -7,6 +7,7 @@
 #include "renderer/shading/albedo.h"
 #include "renderer/shading/material_inputs.h"
 #include "renderer/shading/openpbr_albedo.h"
+#include "renderer/shading/row_store.h"
 
 namespace hipr {
 
@@ -15,64 +16,26 @@ using gpu::MaterialRecord;
 
 namespace {
 
-uint32_t doubled(uint32_t capacity, uint32_t least) {
-    while (capacity < least)
-        capacity = capacity ? capacity * 2 : 64;
-    return capacity;
+template <class T> void append(std::vector<char>& bytes, const std::vector<T>& values) {
+    const char* data = reinterpret_cast<const char*>(values.data());
+    bytes.insert(bytes.end(), data, data + values.size() * sizeof(T));
 }
 
-/// The rows of all materials of one model, in slots of one size: constants, then nodes. Grows by doubling.
-class RowStore {
-public:
-    explicit RowStore(uint32_t inputs) : _inputs(inputs) {}
-
-    uint32_t take() {
-        if (_free.empty()) return _used++;
-        const uint32_t slot = _free.back();
-        _free.pop_back();
-        return slot;
-    }
-    void giveBack(uint32_t slot) { _free.push_back(slot); }
-    bool used() const { return _used > 0; }
-
-    /// Makes room for all slots taken. Returns whether all rows are to be written anew.
-    bool grow(Device& device) {
-        if (_used <= _capacity) return false;
-        const uint32_t capacity = doubled(_capacity, _used);
-        _buffer = device.createBuffer(capacity * size(), MemoryUse::Device, "materials");
-        _capacity = capacity;
-        return true;
-    }
-
-    void write(Device& device, uint32_t slot, const MaterialRow& row, MaterialRecord& record) {
-        const uint64_t constants = slot * size(), nodes = constants + _inputs * sizeof(glm::vec4);
-        record.constants = _buffer.address() + constants;
-        record.nodes = _buffer.address() + nodes;
-        record.nodeCount = uint32_t(row.nodes.size());
-        record.flags = row.flags;
-        record.interior = row.interior;
-        record.subsurface = row.subsurface;
-        device.upload(_buffer, row.constants.data(), row.constants.size() * sizeof(glm::vec4), constants);
-        if (!row.nodes.empty())
-            device.upload(_buffer, row.nodes.data(), row.nodes.size() * sizeof(InputNode), nodes);
-    }
-
-private:
-    uint64_t size() const { return _inputs * (sizeof(glm::vec4) + sizeof(InputNode)); }
-
-    uint32_t _inputs;
-    uint32_t _used = 0, _capacity = 0; ///< slots
-    std::vector<uint32_t> _free;
-    Buffer _buffer;
-};
+uint64_t rowBytes(const ResolvedMaterial& m) {
+    return (m.inputs.size() + m.stepConstants.size()) * sizeof(glm::vec4) +
+           m.reads.size() * sizeof(InputNode) + m.steps.size() * sizeof(gpu::GraphStep);
+}
 
 } // namespace
 
 struct MaterialTable::Impl {
     struct Material {
         ResolvedMaterial inputs;
-        uint32_t index, row;
+        uint32_t index;
+        RowSlot row;
         bool nonOpaque = false;
+        std::vector<char> program; ///< what the row holds behind its constants
+        uint64_t written = 0;      ///< where it was written; 0: not yet
     };
 
     Impl(Device& device, NameTable& names, TextureStore& textures)
@@ -85,45 +48,59 @@ struct MaterialTable::Impl {
     std::vector<uint32_t> freeIndices;
     uint32_t used = 0;     ///< records in use or free below
     uint32_t capacity = 0; ///< records the buffer holds
-    RowStore previewRows{gpu::PREVIEW_INPUT_COUNT}, openPbrRows{gpu::INPUT_COUNT};
+    RowStore rows;
+    bool openPbrUsed = false;
     std::set<MaterialId> dirty, emissive;
     bool moved = false; ///< everything is to be written anew, even if a commit fails in between
     uint32_t textureVersion = 0;
     Buffer records, albedo, openPbrAlbedo;
 
-    RowStore& rows(MaterialModel model) {
-        return model == MaterialModel::OpenPbr ? openPbrRows : previewRows;
-    }
     void grow();
     void write(Material& material);
     void releaseTextures(const ResolvedMaterial& inputs);
 };
 
 void MaterialTable::Impl::grow() {
-    if (previewRows.grow(device)) moved = true;
-    if (openPbrRows.grow(device)) moved = true;
-    if (openPbrRows.used() && !openPbrAlbedo) {
+    if (rows.grow(device)) moved = true;
+    if (!openPbrAlbedo && openPbrUsed) {
         const std::vector<float>& table = openPbrAlbedoTable();
         openPbrAlbedo = device.createFrom(table.data(), table.size(), "materials");
     }
     if (used <= capacity) return;
-    const uint32_t more = doubled(capacity, used);
+    const uint32_t more = doubledCapacity(capacity, used);
     records = device.createBuffer(more * sizeof(MaterialRecord), MemoryUse::Device, "materials");
     capacity = more;
     moved = true;
 }
 
+/// An edit of values alone rewrites the row's constants alone.
 void MaterialTable::Impl::write(Material& material) {
     const MaterialRow row = describeMaterial(material.inputs, textures);
+    const uint64_t address = rows.address(material.row);
+    std::vector<char> bytes, program;
+    append(bytes, row.constants);
+    append(program, row.nodes);
+    append(program, row.steps);
     MaterialRecord record{};
-    rows(material.inputs.model).write(device, material.row, row, record);
+    record.interior = row.interior;
+    record.subsurface = row.subsurface;
+    record.constants = address;
+    record.nodes = address + bytes.size();
+    record.steps = record.nodes + row.nodes.size() * sizeof(InputNode);
+    record.stepCount = uint32_t(row.steps.size());
+    record.presenceSteps = row.presenceSteps;
+    record.flags = row.flags;
+    if (moved || material.written != record.nodes || material.program != program) append(bytes, program);
+    rows.write(device, material.row, bytes.data(), bytes.size());
+    material.program = std::move(program);
+    material.written = record.nodes;
     material.nonOpaque = record.flags & gpu::MATERIAL_NON_OPAQUE;
     device.upload(records, &record, sizeof record, material.index * sizeof record);
 }
 
 void MaterialTable::Impl::releaseTextures(const ResolvedMaterial& inputs) {
-    for (const ResolvedInput& input : inputs.inputs)
-        if (input.kind == MaterialInput::Source::Texture) textures.release(input.texture);
+    for (const ResolvedRead& read : inputs.reads)
+        if (read.textured) textures.release(read.texture);
 }
 
 MaterialTable::MaterialTable(Device& device, NameTable& names, TextureStore& textures)
@@ -145,14 +122,12 @@ MaterialTable::~MaterialTable() = default;
 void MaterialTable::set(MaterialId id, const MaterialDesc& desc) {
     // New textures are acquired before old ones are released, so that those in both stay loaded.
     ResolvedMaterial inputs = resolveMaterial(desc, _impl->names, _impl->textures, _impl->device.messages());
+    _impl->openPbrUsed |= inputs.model == MaterialModel::OpenPbr;
     const auto known = _impl->materials.find(id);
     if (known != _impl->materials.end()) {
         Impl::Material& material = known->second;
         _impl->releaseTextures(material.inputs);
-        if (material.inputs.model != inputs.model) {
-            _impl->rows(material.inputs.model).giveBack(material.row);
-            material.row = _impl->rows(inputs.model).take();
-        }
+        material.row = _impl->rows.take(rowBytes(inputs), material.row);
         material.inputs = std::move(inputs);
     } else {
         uint32_t index = _impl->used;
@@ -162,8 +137,8 @@ void MaterialTable::set(MaterialId id, const MaterialDesc& desc) {
             index = _impl->freeIndices.back();
             _impl->freeIndices.pop_back();
         }
-        const uint32_t row = _impl->rows(inputs.model).take();
-        _impl->materials[id] = {std::move(inputs), index, row};
+        const RowSlot row = _impl->rows.take(rowBytes(inputs));
+        _impl->materials[id] = {std::move(inputs), index, row, false, {}, 0};
     }
     _impl->dirty.insert(id);
     if (isEmissive(_impl->materials[id].inputs))
@@ -177,7 +152,7 @@ void MaterialTable::remove(MaterialId id) {
     if (id == MaterialId::None || known == _impl->materials.end()) return;
     _impl->releaseTextures(known->second.inputs);
     _impl->freeIndices.push_back(known->second.index);
-    _impl->rows(known->second.inputs.model).giveBack(known->second.row);
+    _impl->rows.giveBack(known->second.row);
     _impl->dirty.erase(id);
     _impl->emissive.erase(id);
     _impl->materials.erase(known);

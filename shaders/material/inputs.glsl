@@ -2,17 +2,7 @@
 #ifndef HIPR_MATERIAL_INPUTS_GLSL
 #define HIPR_MATERIAL_INPUTS_GLSL
 #extension GL_EXT_control_flow_attributes : require
-#include "material/primvar.glsl"
-#include "material/texture.glsl"
-
-// What a material reads at a hit: the triangle it is on, and where on it.
-struct ShadingPoint {
-    InstanceRecord instance;
-    GeometryRecord geometry;
-    uint primitive;
-    uvec3 vertices;
-    vec2 uv; // barycentric weights of vertices 1 and 2
-};
+#include "material/graph.glsl"
 
 // By OpenPBR's names; a UsdPreviewSurface has those above baseWeight.
 struct MaterialInputs {
@@ -50,52 +40,8 @@ struct MaterialInputs {
     float filmThickness; // micrometres
     float filmIor;
     vec4 tangentEdges; // as stEdges, of the coordinates that stretched highlights follow
+    vec3 worldNormal;  // where a program makes one, else 0
 };
-
-ShadingPoint shadingPoint(SceneRecord scene, Hit hit) {
-    ShadingPoint point;
-    point.instance = InstanceRef(scene.instances).v[hit.instance];
-    point.geometry = GeometryRef(scene.geometries).v[point.instance.geometry];
-    point.primitive = hit.primitive;
-    point.vertices = Uvec3Ref(point.geometry.triangles).v[hit.primitive];
-    point.uv = vec2(hit.u, hit.v);
-    return point;
-}
-
-// The MaterialRecord of a hit's slot.
-uint materialIndex(SceneRecord scene, ShadingPoint point) {
-    if (point.instance.materialCount == 0u) return 0u;
-    uint slot = 0u;
-    if (point.geometry.triangleSlot != 0ul) slot = uint(Uint16Ref(point.geometry.triangleSlot).v[point.primitive]);
-    slot = min(slot, point.instance.materialCount - 1u);
-    return UintRef(scene.materialIndices).v[point.instance.firstMaterial + slot];
-}
-
-vec4 selectChannel(vec4 value, uint channel) {
-    if (channel == 0u) return value.xxxx;
-    if (channel == 1u) return value.yyyy;
-    if (channel == 2u) return value.zzzz;
-    if (channel == 3u) return value.wwww;
-    return value;
-}
-
-vec2 transformSt(InputNode node, vec2 st) { return node.uvAxisU * st.x + node.uvAxisV * st.y + node.uvOffset; }
-
-// A UsdUVTexture: scale and bias apply to what the file holds, not to the fallback.
-vec4 sampleTextureNode(SceneRecord scene, InputNode node, vec2 st) {
-    uint record = node.texture;
-    if (node.udimTiles > 0u) {
-        vec2 tile = floor(st);
-        float number = tile.x + 10.0 * tile.y;
-        bool exists = tile.x >= 0.0 && tile.x < 10.0 && number >= 0.0 && number < float(node.udimTiles);
-        if (!exists) return node.fallback;
-        record += uint(number);
-        st -= tile;
-    }
-    TextureRecord texture = TextureRef(scene.textures).v[record];
-    if (texture.format == TEXEL_NONE) return node.fallback;
-    return sampleTexture(texture, st) * node.scale + node.bias;
-}
 
 // The constants of a row: straight loads of just the channels in use, no loop.
 MaterialInputs constantInputs(uint64_t row, bool openPbr) {
@@ -113,6 +59,7 @@ MaterialInputs constantInputs(uint64_t row, bool openPbr) {
     inputs.ior = constants.v[INPUT_SPECULAR_IOR].x;
     inputs.normal = constants.v[INPUT_NORMAL].xyz;
     inputs.stEdges = inputs.tangentEdges = vec4(0.0);
+    inputs.worldNormal = vec3(0.0);
     if (!openPbr) return inputs;
     inputs.baseWeight = constants.v[INPUT_BASE_WEIGHT].x;
     inputs.diffuseRoughness = constants.v[INPUT_BASE_DIFFUSE_ROUGHNESS].x;
@@ -170,32 +117,22 @@ void setInput(inout MaterialInputs inputs, uint target, vec4 value) {
     case INPUT_THIN_FILM_WEIGHT: inputs.filmWeight = value.x; break;
     case INPUT_THIN_FILM_THICKNESS: inputs.filmThickness = value.x; break;
     case INPUT_THIN_FILM_IOR: inputs.filmIor = value.x; break;
+    case INPUT_WORLD_NORMAL: inputs.worldNormal = value.xyz; break;
     }
 }
 
-// The inputs of a material; of those that nodes feed, first..last (INPUT_*) are evaluated and the others keep their
-// constants. One loop with one texture look-up inside keeps the kernel small: see docs/architecture.md.
-MaterialInputs evaluateInputs(SceneRecord scene, ShadingPoint point, MaterialRecord material, uint first, uint last) {
+// The inputs of a material, after the first `count` steps of its program. One loop with one texture look-up inside keeps
+// the kernel small: see docs/architecture.md.
+MaterialInputs evaluateInputs(SceneRecord scene, ShadingPoint point, MaterialRecord material, uint count) {
     MaterialInputs inputs = constantInputs(material.constants, (material.flags & MATERIAL_OPENPBR) != 0u);
-    InputNodeRef nodes = InputNodeRef(material.nodes);
-    PrimvarCorners corners;
-    uint cornersName = NO_INDEX;
-    [[dont_unroll]] for (uint k = 0u; k < material.nodeCount; ++k) {
-        InputNode node = nodes.v[k];
-        if (node.target < first || node.target > last) continue;
-        if (node.primvar != cornersName) {
-            corners = findPrimvar(point.instance, point.geometry, point.primitive, point.vertices, node.primvar);
-            cornersName = node.primvar;
-        }
-        vec2 st0 = transformSt(node, corners.a.xy);
-        vec4 edges = vec4(transformSt(node, corners.b.xy) - st0, transformSt(node, corners.c.xy) - st0);
-        if (node.target == INPUT_NORMAL && node.texture != NO_INDEX) inputs.stEdges = edges;
-        if (node.target == INPUT_TANGENT) inputs.tangentEdges = edges;
-        vec4 primvar = interpolatePrimvar(corners, point.uv);
-        vec4 value = corners.found ? primvar : node.fallback;
-        if (node.texture != NO_INDEX)
-            value = sampleTextureNode(scene, node, transformSt(node, corners.found ? primvar.xy : node.uvFallback));
-        setInput(inputs, node.target, selectChannel(value, node.channel));
+    GraphReader reader = graphReader(scene, point, material);
+    [[dont_unroll]] for (uint k = 0u; k < count; ++k) {
+        GraphStep step_ = GraphStepRef(material.steps).v[k];
+        vec4 value = evaluateStep(reader, step_);
+        uint target = step_.code >> 16;
+        setInput(inputs, target, value);
+        if (target == INPUT_NORMAL) inputs.stEdges = reader.edges;
+        if (target == INPUT_TANGENT) inputs.tangentEdges = reader.edges;
     }
     return inputs;
 }

@@ -9,6 +9,6 @@ float evaluatePresence(SceneRecord scene, Hit hit) {
     uint material = materialIndex(scene, point);
     MaterialRecord record = MaterialRef(scene.materials).v[material];
     if ((record.flags & MATERIAL_PRESENCE) == 0u) return 1.0;
-    return presenceOf(record.flags, evaluateInputs(scene, point, record, INPUT_OPACITY, INPUT_OPACITY_THRESHOLD));
+    return presenceOf(record.flags, evaluateInputs(scene, point, record, record.presenceSteps));
 }
 #endif

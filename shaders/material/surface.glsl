@@ -8,12 +8,6 @@
 #include "material/openpbr.glsl"
 #include "material/preview.glsl"
 
-// Front-facing geometric normal of a triangle; `mirrored` transforms turn the winding over.
-vec3 triangleNormal(vec3 e1, vec3 e2, bool mirrored) {
-    vec3 n = cross(e1, e2);
-    return mirrored ? -n : n;
-}
-
 // The smallest turn of `n` that lets the mirror direction of `wo` leave the surface whose geometric normal is `ng`, so
 // that interpolated and mapped normals never show a viewer their back. wo and ng are on one side.
 vec3 bendNormal(vec3 n, vec3 ng, vec3 wo) {
@@ -22,13 +16,6 @@ vec3 bendNormal(vec3 n, vec3 ng, vec3 wo) {
     float height = dot(mirror, ng);
     if (height >= least && dot(n, wo) > 0.0) return n;
     return normalizeOr(wo + normalizeOr(mirror + (least - height) * ng, ng), ng);
-}
-
-// Along the texture coordinate s on the surface whose normal is `n`; `otherwise` where it has no direction.
-vec3 tangentAlong(vec3 n, vec3 otherwise, vec3 e1, vec3 e2, vec4 stEdges) {
-    float det = stEdges.x * stEdges.w - stEdges.y * stEdges.z;
-    vec3 dpds = (e1 * stEdges.w - e2 * stEdges.y) * sign(det);
-    return normalizeOr(dpds - n * dot(n, dpds), otherwise);
 }
 
 // Tangent-space normal to world space. The tangent follows the texture coordinates in which the map was read
@@ -40,17 +27,6 @@ vec3 applyNormalMap(vec3 n, vec3 mapped, vec3 e1, vec3 e2, vec4 stEdges) {
     vec3 dpdt = (e2 * stEdges.x - e1 * stEdges.z) * sign(det);
     vec3 bitangent = cross(n, tangent) * (dot(cross(n, tangent), dpdt) < 0.0 ? -1.0 : 1.0);
     return normalizeOr(tangent * mapped.x + bitangent * mapped.y + n * mapped.z, n);
-}
-
-// Interpolated normal in world space, on the front side.
-vec3 interpolatedNormal(ShadingPoint point, vec3 ng) {
-    if (point.geometry.normals == 0ul) return ng;
-    bool faceVarying = (point.geometry.flags & GEOMETRY_NORMALS_FACE_VARYING) != 0u;
-    uvec3 at = faceVarying ? 3u * point.primitive + uvec3(0u, 1u, 2u) : point.vertices;
-    Vec3Ref normals = Vec3Ref(point.geometry.normals);
-    vec3 n = normals.v[at.x] * (1.0 - point.uv.x - point.uv.y) + normals.v[at.y] * point.uv.x + normals.v[at.z] * point.uv.y;
-    n = normalizeOr(n * mat3(point.instance.worldToObject), ng); // times the inverse transpose
-    return dot(n, ng) < 0.0 ? -n : n;
 }
 
 // Geometry of a hit; the rest of the surface is left to the material.
@@ -88,11 +64,12 @@ Surface evaluateSurface(SceneRecord scene, Hit hit, Ray ray) {
 
     s.material = materialIndex(scene, point);
     MaterialRecord material = MaterialRef(scene.materials).v[s.material];
-    MaterialInputs inputs = evaluateInputs(scene, point, material, 0u, INPUT_COUNT - 1u);
+    MaterialInputs inputs = evaluateInputs(scene, point, material, material.stepCount);
     s.opacity = presenceOf(material.flags, inputs);
 
     s.ns = interpolatedNormal(point, s.ng);
     if (inputs.stEdges != vec4(0.0)) s.ns = applyNormalMap(s.ns, inputs.normal, e1, e2, inputs.stEdges);
+    s.ns = normalizeOr(inputs.worldNormal, s.ns);
     if (!s.frontFacing) {
         s.ng = -s.ng;
         s.ns = -s.ns;

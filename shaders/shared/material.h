@@ -1,4 +1,4 @@
-// Materials as data: a row of inputs, each a constant that an input node may replace.
+// Materials as data: a row of inputs, each a constant that a program may replace.
 #ifndef HIPR_SHARED_MATERIAL_H
 #define HIPR_SHARED_MATERIAL_H
 #include "language.h"
@@ -40,6 +40,8 @@ HIPR_CONST uint INPUT_THIN_FILM_THICKNESS = 29u;
 HIPR_CONST uint INPUT_THIN_FILM_IOR = 30u;
 HIPR_CONST uint INPUT_TANGENT = 31u;                // no value: its node names the st that anisotropy follows
 HIPR_CONST uint INPUT_COUNT = 32u;
+// Beside the row: set by programs alone.
+HIPR_CONST uint INPUT_WORLD_NORMAL = 32u;           // in the place of INPUT_NORMAL, in world space, on the front side
 
 HIPR_CONST uint MATERIAL_SPECULAR_WORKFLOW = 1u;
 HIPR_CONST uint MATERIAL_PRESENCE = 2u;     // (1 - opacity) of light goes straight through the surface, unrefracted
@@ -59,7 +61,7 @@ HIPR_CONST uint MEDIUM_KIND = 3u;
 HIPR_CONST uint MEDIUM_SHIFT = 2u;
 HIPR_CONST uint MEDIUM_DISPERSED = 0x80000000u; // the path has the wavelength of its pixel's sample
 
-// What feeds an input: a texture or a primvar.
+// What a program reads: a texture or a primvar.
 struct InputNode {
     uint texture;            // first TextureRecord, NO_INDEX: primvar reader
     uint udimTiles;          // 0: an ordinary texture; else the number of TextureRecords, tile 1001 + i is texture + i
@@ -72,8 +74,6 @@ struct InputNode {
     vec2 uvAxisV;
     vec2 uvOffset;
     vec2 uvFallback;
-    uint target;             // INPUT_*
-    uint pad;
 };
 
 // What light travels through: absorbs and scatters it with Henyey and Greenstein's phase function.
@@ -87,10 +87,13 @@ struct MediumRecord {
 struct MaterialRecord {
     MediumRecord interior;   // OpenPBR: inside the object, entered by refraction
     MediumRecord subsurface; // OpenPBR: inside the object, entered by diffuse transmission; albedo comes with the path
-    uint64_t constants;      // vec4[PREVIEW_INPUT_COUNT or INPUT_COUNT]
-    uint64_t nodes;          // InputNode[nodeCount], by rising target
-    uint nodeCount;
+    uint64_t constants;      // vec4[PREVIEW_INPUT_COUNT or INPUT_COUNT], then those of the program
+    uint64_t nodes;          // InputNode[]
+    uint64_t steps;          // GraphStep[stepCount]: the program that sets inputs (shaders/shared/graph.h)
+    uint stepCount;
+    uint presenceSteps;      // the first of them, which opacity needs
     uint flags;              // MATERIAL_*
+    uint pad;
 };
 
 HIPR_CONST uint TEXEL_RGBA8_SRGB = 0u;      // colour sRGB-encoded, alpha linear

@@ -10,9 +10,11 @@
 #extension GL_EXT_shader_explicit_arithmetic_types_int16 : require
 #extension GL_EXT_shader_16bit_storage : require
 #extension GL_EXT_shader_8bit_storage : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shared/language.h"
 #include "shared/scene.h"
 #include "shared/material.h"
+#include "shared/graph.h"
 #include "shared/light.h"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FloatRef { float v[]; };
@@ -30,6 +32,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Pri
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer InstanceRef { InstanceRecord v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer MaterialRef { MaterialRecord v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer InputNodeRef { InputNode v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer GraphStepRef { GraphStep v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer TextureRef { TextureRecord v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer LightRef { LightRecord v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer LightNodeRef { LightNode v[]; };

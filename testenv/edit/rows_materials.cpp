@@ -211,11 +211,37 @@ token outputs:surface
     };
 }
 
+/// Materials whose inputs a graph of operations computes: the stretched texture coordinates as a colour.
+Rows graphs() {
+    const std::string place = looks + "Graph/Place", surface = looks + "Graph/Surface";
+    const Edit bind = in(geo + "Reader", "rel material:binding = </World/Looks/Graph>");
+    return {
+        {"GraphBound", bind},
+        {"GraphConstant", in(place, "float2 inputs:scale = (0.5, 1.5)"), bind},
+        {"GraphConstantThatChangesNothing", in(place, "float2 inputs:scale = (1, 1)"), bind},
+        {"GraphRotation", in(place, "float inputs:rotation = 40"), bind},
+        {"GraphOfOpacity",
+         in(surface, "float inputs:opacity.connect = </World/Looks/Graph/Place.outputs:result>"), bind},
+        {"GraphNodeBypassed",
+         in(surface, "color3f inputs:diffuseColor.connect = </World/Looks/Graph/St.outputs:result>"), bind},
+        {"GraphNodeAdded",
+         all({in(looks + "Graph",
+                 R"(def Shader "More" { uniform token info:id = "UsdTransform2d"
+float2 inputs:in.connect = </World/Looks/Graph/Place.outputs:result>
+float2 inputs:translation = (0.2, 0.1)
+float2 outputs:result
+})"),
+              in(surface, "color3f inputs:diffuseColor.connect = </World/Looks/Graph/More.outputs:result>")}),
+         bind},
+        {"GraphDisconnected", removeProperty(surface + ".inputs:diffuseColor"), bind},
+    };
+}
+
 } // namespace
 
 Rows materialRows() {
     Rows rows = bindings();
-    for (const Rows& more : {inputs(), openPbrRows(), networks()})
+    for (const Rows& more : {inputs(), openPbrRows(), networks(), graphs()})
         rows.insert(rows.end(), more.begin(), more.end());
     return rows;
 }

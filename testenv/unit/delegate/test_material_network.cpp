@@ -162,6 +162,69 @@ TEST(MaterialNetwork, openPbrInputsOfEveryKind) {
     EXPECT_EQ(openPbrInput(*desc, In::CoatIor).constant.x, 1.6f); // the specification's default
 }
 
+TEST(MaterialNetwork, patternNodesBecomeAGraph) {
+    Network n;
+    n.add("position", "ND_position_vector3");
+    auto& noise = n.add("noise", "ND_fractal3d_float").parameters;
+    noise[TfToken("octaves")] = VtValue(2);
+    auto& mix = n.add("mix", "ND_mix_color3").parameters;
+    mix[TfToken("fg")] = VtValue(GfVec3f(1, 0, 0));
+    mix[TfToken("bg")] = VtValue(GfVec3f(0, 0, 1));
+    n.add("surface", "ND_standard_surface_surfaceshader");
+    n.connect("position", "out", "noise", "position");
+    n.connect("noise", "out", "mix", "mix");
+    n.connect("mix", "out", "surface", "base_color");
+    const auto desc = n.desc();
+    ASSERT_TRUE(desc);
+    EXPECT_EQ(desc->model, hipr::MaterialModel::OpenPbr);
+    const hipr::MaterialInput color = openPbrInput(*desc, hipr::OpenPbrInput::BaseColor);
+    ASSERT_EQ(color.source, hipr::MaterialInput::Source::Graph);
+    const auto value = [&](uint32_t op) {
+        for (const hipr::GraphNode& node : desc->graph.nodes) {
+            if (node.op == op) {
+                return node;
+            }
+        }
+        return hipr::GraphNode();
+    };
+    EXPECT_EQ(desc->graph.nodes.at(color.node).op, hipr::gpu::GRAPH_MIX);
+    EXPECT_EQ(value(hipr::gpu::GRAPH_NOISE).operands[1].constant.x, 2.f);
+    EXPECT_EQ(value(hipr::gpu::GRAPH_POSITION).immediate, hipr::gpu::GRAPH_OBJECT);
+}
+
+TEST(MaterialNetwork, imagesOfMaterialX) {
+    Network n;
+    auto& place = n.add("place", "ND_place2d_vector2").parameters;
+    place[TfToken("scale")] = VtValue(GfVec2f(0.5f, 0.25f));
+    auto& image = n.add("image", "ND_image_color3").parameters;
+    image[TfToken("file")] = VtValue(SdfAssetPath("a.png", "/a.png"));
+    image[TfToken("uaddressmode")] = VtValue(std::string("mirror"));
+    image[TfToken("colorSpace:file")] = token("srgb_texture");
+    image[TfToken("default")] = VtValue(GfVec3f(0.5f, 0.25f, 0.125f));
+    auto& map = n.add("map", "ND_image_vector3").parameters;
+    map[TfToken("file")] = VtValue(SdfAssetPath("n.png", "/n.png"));
+    n.add("bumps", "ND_normalmap_float");
+    n.add("surface", "ND_standard_surface_surfaceshader");
+    n.connect("place", "out", "image", "texcoord");
+    n.connect("image", "out", "surface", "base_color");
+    n.connect("map", "out", "bumps", "in");
+    n.connect("bumps", "out", "surface", "normal");
+    const auto desc = n.desc();
+    ASSERT_TRUE(desc);
+    const hipr::MaterialInput color = openPbrInput(*desc, hipr::OpenPbrInput::BaseColor);
+    ASSERT_EQ(color.source, hipr::MaterialInput::Source::Texture);
+    EXPECT_EQ(color.texture.path, "/a.png");
+    EXPECT_EQ(color.texture.colorSpace, "srgb_texture");
+    EXPECT_EQ(color.texture.wrapS, hipr::WrapMode::Mirror);
+    EXPECT_EQ(color.texture.wrapT, hipr::WrapMode::Repeat);
+    EXPECT_EQ(color.texture.uvPrimvar, "st");
+    EXPECT_EQ(glm::vec3(color.texture.fallback), glm::vec3(0.5f, 0.25f, 0.125f));
+    EXPECT_EQ(color.texture.uvTransform * glm::vec3(1, 1, 1), glm::vec2(2, 4));
+    const hipr::MaterialInput normal = openPbrInput(*desc, hipr::OpenPbrInput::GeometryNormal);
+    EXPECT_EQ(normal.source, hipr::MaterialInput::Source::Graph);
+    EXPECT_EQ(desc->graph.reads.size(), 3u); // the texture coordinates and two pictures
+}
+
 TEST(MaterialNetwork, unknownSurfacesGiveNothing) {
     Network n;
     n.add("surface", "SomeSurface");

@@ -1,0 +1,58 @@
+// Where a ray has hit: the triangle and the frame there.
+#ifndef HIPR_MATERIAL_POINT_GLSL
+#define HIPR_MATERIAL_POINT_GLSL
+#include "material/frame.glsl"
+#include "shared/references.glsl"
+
+// What a material reads at a hit: the triangle it is on, and where on it.
+struct ShadingPoint {
+    InstanceRecord instance;
+    GeometryRecord geometry;
+    uint primitive;
+    uvec3 vertices;
+    vec2 uv; // barycentric weights of vertices 1 and 2
+};
+
+ShadingPoint shadingPoint(SceneRecord scene, Hit hit) {
+    ShadingPoint point;
+    point.instance = InstanceRef(scene.instances).v[hit.instance];
+    point.geometry = GeometryRef(scene.geometries).v[point.instance.geometry];
+    point.primitive = hit.primitive;
+    point.vertices = Uvec3Ref(point.geometry.triangles).v[hit.primitive];
+    point.uv = vec2(hit.u, hit.v);
+    return point;
+}
+
+// The MaterialRecord of a hit's slot.
+uint materialIndex(SceneRecord scene, ShadingPoint point) {
+    if (point.instance.materialCount == 0u) return 0u;
+    uint slot = 0u;
+    if (point.geometry.triangleSlot != 0ul) slot = uint(Uint16Ref(point.geometry.triangleSlot).v[point.primitive]);
+    slot = min(slot, point.instance.materialCount - 1u);
+    return UintRef(scene.materialIndices).v[point.instance.firstMaterial + slot];
+}
+
+// Front-facing geometric normal of a triangle; `mirrored` transforms turn the winding over.
+vec3 triangleNormal(vec3 e1, vec3 e2, bool mirrored) {
+    vec3 n = cross(e1, e2);
+    return mirrored ? -n : n;
+}
+
+// Interpolated normal in world space, on the front side.
+vec3 interpolatedNormal(ShadingPoint point, vec3 ng) {
+    if (point.geometry.normals == 0ul) return ng;
+    bool faceVarying = (point.geometry.flags & GEOMETRY_NORMALS_FACE_VARYING) != 0u;
+    uvec3 at = faceVarying ? 3u * point.primitive + uvec3(0u, 1u, 2u) : point.vertices;
+    Vec3Ref normals = Vec3Ref(point.geometry.normals);
+    vec3 n = normals.v[at.x] * (1.0 - point.uv.x - point.uv.y) + normals.v[at.y] * point.uv.x + normals.v[at.z] * point.uv.y;
+    n = normalizeOr(n * mat3(point.instance.worldToObject), ng); // times the inverse transpose
+    return dot(n, ng) < 0.0 ? -n : n;
+}
+
+// Along the texture coordinate s on the surface whose normal is `n`; `otherwise` where it has no direction.
+vec3 tangentAlong(vec3 n, vec3 otherwise, vec3 e1, vec3 e2, vec4 stEdges) {
+    float det = stEdges.x * stEdges.w - stEdges.y * stEdges.z;
+    vec3 dpds = (e1 * stEdges.w - e2 * stEdges.y) * sign(det);
+    return normalizeOr(dpds - n * dot(n, dpds), otherwise);
+}
+#endif
