@@ -41,6 +41,24 @@ void SceneEdit::setSplats(SplatsId id, std::shared_ptr<const SplatCloud> cloud) 
 void SceneEdit::removeSplats(SplatsId id) {
     record(SplatsOp{id, nullptr});
 }
+void SceneEdit::setField(FieldId id, std::shared_ptr<const FieldGrid> grid) {
+    record(FieldOp{id, std::move(grid)});
+}
+void SceneEdit::removeField(FieldId id) {
+    record(FieldOp{id, nullptr});
+}
+void SceneEdit::setVolume(VolumeId id, VolumeDesc desc) {
+    record(VolumeOp{id, std::move(desc)});
+}
+void SceneEdit::removeVolume(VolumeId id) {
+    record(VolumeOp{id, std::nullopt});
+}
+void SceneEdit::setVolumeLook(MaterialId id, VolumeLook look) {
+    record(VolumeLookOp{id, look});
+}
+void SceneEdit::removeVolumeLook(MaterialId id) {
+    record(VolumeLookOp{id, std::nullopt});
+}
 void SceneEdit::setMaterial(MaterialId id, MaterialDesc desc) {
     record(MaterialOp{id, std::move(desc)});
 }

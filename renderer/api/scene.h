@@ -12,10 +12,11 @@
 #include "renderer/api/material.h"
 #include "renderer/api/mesh.h"
 #include "renderer/api/splats.h"
+#include "renderer/api/volume.h"
 
 namespace hipr {
 
-/// An object: one geometry or one cloud of splats, its materials, and its placement.
+/// An object: one geometry, one cloud of splats or one volume, its materials, and its placement.
 struct ObjectDesc {
     std::string name;
     GeometryId geometry = GeometryId::None;
@@ -25,6 +26,7 @@ struct ObjectDesc {
     int primId = -1;                  ///< written to the primId AOV
     SplatsId splats = SplatsId::None; ///< a cloud of splats, which has no materials, instead of a geometry
     std::vector<std::string> categories{}; ///< what lights may be linked to: LightDesc::lightLink, shadowLink
+    VolumeId volume = VolumeId::None; ///< a volume instead of a geometry; its material is the first one
 };
 
 /// All placements of one object. The geometry is never copied per instance. An object that was never given
@@ -86,6 +88,13 @@ public:
     void removeGeometry(GeometryId id);
     void setSplats(SplatsId id, std::shared_ptr<const SplatCloud> cloud);
     void removeSplats(SplatsId id);
+    void setField(FieldId id, std::shared_ptr<const FieldGrid> grid);
+    void removeField(FieldId id);
+    void setVolume(VolumeId id, VolumeDesc desc);
+    void removeVolume(VolumeId id);
+    /// What a material says of the volumes it is bound to; it may be a material of surfaces as well.
+    void setVolumeLook(MaterialId id, VolumeLook look);
+    void removeVolumeLook(MaterialId id);
     void setMaterial(MaterialId id, MaterialDesc desc);
     void removeMaterial(MaterialId id);
     void setLight(LightId id, LightDesc desc);
@@ -110,6 +119,18 @@ public:
         SplatsId id;
         std::shared_ptr<const SplatCloud> cloud;
     };
+    struct FieldOp {
+        FieldId id;
+        std::shared_ptr<const FieldGrid> grid;
+    };
+    struct VolumeOp {
+        VolumeId id;
+        std::optional<VolumeDesc> desc;
+    };
+    struct VolumeLookOp {
+        MaterialId id;
+        std::optional<VolumeLook> look;
+    };
     struct MaterialOp {
         MaterialId id;
         std::optional<MaterialDesc> desc;
@@ -129,7 +150,8 @@ public:
     struct CameraOp {
         CameraDesc desc;
     };
-    using Op = std::variant<GeometryOp, SplatsOp, MaterialOp, LightOp, ObjectOp, InstancesOp, CameraOp>;
+    using Op = std::variant<GeometryOp, SplatsOp, MaterialOp, LightOp, ObjectOp, InstancesOp, CameraOp, FieldOp,
+                            VolumeOp, VolumeLookOp>;
 
     /// Moves the recorded calls out, in order. Used by Renderer::commit().
     std::vector<Op> take();

@@ -19,6 +19,8 @@ enum class MaterialId : uint32_t { None = 0 };
 enum class LightId : uint32_t { None = 0 };
 enum class ObjectId : uint32_t { None = 0 };
 enum class SplatsId : uint32_t { None = 0 };
+enum class FieldId : uint32_t { None = 0 };
+enum class VolumeId : uint32_t { None = 0 };
 
 enum class Severity { Info, Warning, Error };
 

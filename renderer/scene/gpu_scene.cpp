@@ -74,7 +74,8 @@ GpuScene::GpuScene(Device& device, AssetReader assets)
     : _device(device), _categories(device),
       _textures(device, std::move(assets), ColorManager::create(device.messages())),
       _materials(device, _names, _textures), _lights(device, _textures, _categories),
-      _geometries(device, _names), _objects(device, _names, _categories), _meshLights(device),
+      _geometries(device, _names), _volumes(device), _objects(device, _names, _categories),
+      _meshLights(device),
       _record(device.createBuffer(sizeof(gpu::SceneRecord), MemoryUse::Device, "Scene")) {}
 
 void GpuScene::setTraversal(std::unique_ptr<Traversal> traversal) {
@@ -102,6 +103,28 @@ void GpuScene::apply(const SceneEdit::SplatsOp& op, ChangedSet& changed) {
     const Change change =
         op.cloud ? _splats.set(op.id, op.cloud) : (_splats.remove(op.id) ? Change::Removed : Change::None);
     if (change != Change::None) _objects.splatsChanged(op.id, changed);
+}
+
+void GpuScene::apply(const SceneEdit::FieldOp& op, ChangedSet& changed) {
+    const bool any =
+        op.grid ? _volumes.setField(op.id, op.grid) != Change::None : _volumes.removeField(op.id);
+    if (!any) return;
+    for (const VolumeId volume : _volumes.showing(op.id))
+        _objects.volumeChanged(volume, Change::Geometry, changed);
+}
+
+void GpuScene::apply(const SceneEdit::VolumeOp& op, ChangedSet& changed) {
+    const Change change = op.desc ? _volumes.setVolume(op.id, *op.desc)
+                                  : (_volumes.removeVolume(op.id) ? Change::Removed : Change::None);
+    if (change != Change::None) _objects.volumeChanged(op.id, change, changed);
+}
+
+void GpuScene::apply(const SceneEdit::VolumeLookOp& op, ChangedSet& changed) {
+    const Change change = op.look ? _volumes.setLook(op.id, *op.look)
+                                  : (_volumes.removeLook(op.id) ? Change::Removed : Change::None);
+    if (change == Change::None) return;
+    changed.elements.push_back({op.id, change == Change::Removed ? Change::Material : change});
+    _tracedChanged = true;
 }
 
 void GpuScene::apply(const SceneEdit::MaterialOp& op, ChangedSet& changed) {
@@ -177,10 +200,11 @@ void GpuScene::commit() {
     _materials.commit();
     _geometries.commit(*_traversal);
     const MaterialTable* const materials = _options.materials ? &_materials : nullptr;
-    if (_objects.commit(_geometries, _splats, materials) || _traversalChanged)
+    if (_objects.commit(_geometries, _splats, _volumes, materials) || _traversalChanged)
         _traversal->setInstances(_objects.records());
     _traversal->commit();
     _traversalChanged = _tracedChanged = false;
+    _volumes.commit(_objects.volumes());
 
     _meshLights.commit(_objects, _geometries, materials);
     _hostRecord = {};
@@ -192,6 +216,7 @@ void GpuScene::commit() {
     _geometries.describe(_hostRecord);
     _materials.describe(_hostRecord);
     _textures.describe(_hostRecord);
+    _volumes.describe(_hostRecord);
     _hostRecord.bvh = _traversal->sceneAddress();
     if (!_options.domeVisibleToCamera) _hostRecord.flags |= gpu::SCENE_DOME_HIDDEN_FROM_CAMERA;
     _device.upload(_record, &_hostRecord, sizeof(_hostRecord));

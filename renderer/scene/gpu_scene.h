@@ -72,11 +72,15 @@ public:
     uint32_t flags() const { return _hostRecord.flags; } ///< SCENE_*
     uint64_t meshHostBytes() const { return _geometries.hostBytes(); }
     uint64_t splatHostBytes() const { return _splats.hostBytes(); }
+    uint64_t volumeHostBytes() const { return _volumes.hostBytes(); }
     uint64_t traversalHostBytes() const { return _traversal->hostBytes(); }
 
 private:
     void apply(const SceneEdit::GeometryOp& op, ChangedSet& changed);
     void apply(const SceneEdit::SplatsOp& op, ChangedSet& changed);
+    void apply(const SceneEdit::FieldOp& op, ChangedSet& changed);
+    void apply(const SceneEdit::VolumeOp& op, ChangedSet& changed);
+    void apply(const SceneEdit::VolumeLookOp& op, ChangedSet& changed);
     void apply(const SceneEdit::MaterialOp& op, ChangedSet& changed);
     void apply(const SceneEdit::LightOp& op, ChangedSet& changed);
     void apply(const SceneEdit::ObjectOp& op, ChangedSet& changed);
@@ -92,6 +96,7 @@ private:
     LightTable _lights;
     GeometryTable _geometries;
     SplatTable _splats;
+    VolumeTable _volumes;
     ObjectTable _objects;
     MeshLights _meshLights;
     std::unique_ptr<Traversal> _traversal;

@@ -46,7 +46,9 @@ void ObjectTable::note(ChangedSet& changed, ObjectId id, const Entry& entry, Cha
                        uint32_t instance) {
     if (change == Change::None) return;
     changed.elements.push_back({id, change, instance});
-    _tracedChanged |= entry.placed.count > 0 || (entry.desc && entry.desc->geometry != GeometryId::None);
+    _tracedChanged |=
+        entry.placed.count > 0 || !entry.volumes.empty() ||
+        (entry.desc && (entry.desc->geometry != GeometryId::None || entry.desc->volume != VolumeId::None));
 }
 
 void ObjectTable::setObject(ObjectId id, const ObjectDesc& desc, ChangedSet& changed) {
@@ -56,7 +58,8 @@ void ObjectTable::setObject(ObjectId id, const ObjectDesc& desc, ChangedSet& cha
         entry.fresh = true;
         change = Change::Added;
     } else if (!entry.fresh) {
-        if (entry.desc->geometry != desc.geometry || entry.desc->splats != desc.splats)
+        if (entry.desc->geometry != desc.geometry || entry.desc->splats != desc.splats ||
+            entry.desc->volume != desc.volume)
             change = change | Change::Geometry;
         if (entry.desc->materials != desc.materials) change = change | Change::Material;
         if (entry.desc->visible != desc.visible) change = change | Change::Visibility;
@@ -180,12 +183,13 @@ ObjectTable::Placement ObjectTable::place(Entry& entry, const Geometry* geometry
     Placement placement;
     placement.first = first;
     placement.firstMaterial = uint32_t(materialIndices.size());
+    if (entry.desc && (geometry || entry.desc->volume != VolumeId::None))
+        placement.categories = _categories.set(entry.desc->categories);
     if (!geometry) return placement;
     placement.count = uint32_t(entry.usable.size());
     placement.geometry = geometry->slot;
     placement.materialCount = geometry->slotCount;
     placement.primId = entry.desc->primId;
-    placement.categories = _categories.set(entry.desc->categories);
     const bool fallbackNonOpaque =
         geometry->translucent || (entry.instances && isTranslucent(entry.instances->primvars));
     for (uint32_t slot = 0; slot < geometry->slotCount; ++slot) {
@@ -237,8 +241,7 @@ void ObjectTable::writeRecords(ObjectId id, Entry& entry) {
 WorldBox ObjectTable::placedBox(const Entry& entry, uint32_t i) const {
     const glm::vec3 centre = 0.5f * (entry.meshBox.min + entry.meshBox.max),
                     half = 0.5f * (entry.meshBox.max - entry.meshBox.min);
-    const glm::mat4x3& m =
-        entry.splats.empty() ? _records[entry.placed.first + i].objectToWorld : entry.splats[i].objectToWorld;
+    const glm::mat4x3& m = placedTransform(entry, i);
     const glm::vec3 c = m * glm::vec4(centre, 1.f);
     const glm::vec3 h = glm::abs(m[0]) * half.x + glm::abs(m[1]) * half.y + glm::abs(m[2]) * half.z;
     return {c - h, c + h};
@@ -246,7 +249,7 @@ WorldBox ObjectTable::placedBox(const Entry& entry, uint32_t i) const {
 
 /// The committed box of one instance or of all; empty if it is not rendered.
 WorldBox ObjectTable::instanceBox(const Entry& entry, uint32_t instance) const {
-    if (entry.placed.count == 0 && entry.splats.empty()) return {};
+    if (placedCount(entry) == 0) return {};
     if (instance == ChangedElement::AllInstances) return entry.box;
     const auto found = std::lower_bound(entry.usable.begin(), entry.usable.end(), instance);
     const bool usable = found != entry.usable.end() && *found == instance;
@@ -292,7 +295,7 @@ void ObjectTable::addKeys(const ChangedElement& element, std::vector<gpu::Elemen
 
 void ObjectTable::updateBox(Entry& entry) const {
     entry.box = {};
-    for (uint32_t i = 0; i < std::max<size_t>(entry.placed.count, entry.splats.size()); ++i)
+    for (uint32_t i = 0; i < placedCount(entry); ++i)
         entry.box.add(placedBox(entry, i));
 }
 
@@ -309,7 +312,7 @@ const std::vector<ObjectId>& ObjectTable::order() {
 }
 
 bool ObjectTable::commit(const GeometryTable& geometries, const SplatTable& splats,
-                         const MaterialTable* materials) {
+                         const VolumeTable& volumes, const MaterialTable* materials) {
     _tracedChanged = false;
     std::vector<uint32_t> materialIndices;
     std::vector<std::pair<ObjectId, Entry*>> rewritten;
@@ -318,8 +321,9 @@ bool ObjectTable::commit(const GeometryTable& geometries, const SplatTable& spla
         Entry& entry = _entries.at(id);
         entry.fresh = false;
         const SplatSet* set = shownSplats(entry, splats);
-        const Geometry* geometry = set ? nullptr : shownGeometry(entry, geometries);
-        const bool transformsChanged = (geometry || set) && entry.transformsPending;
+        const VolumeEntry* volume = set ? nullptr : shownVolume(entry, volumes);
+        const Geometry* geometry = set || volume ? nullptr : shownGeometry(entry, geometries);
+        const bool transformsChanged = (geometry || set || volume) && entry.transformsPending;
         if (transformsChanged) {
             findUsable(entry);
             uploadPrimvars(entry);
@@ -330,6 +334,7 @@ bool ObjectTable::commit(const GeometryTable& geometries, const SplatTable& spla
         if ((transformsChanged && geometry) || !(placement == entry.placed))
             rewritten.push_back({id, &entry});
         entry.placed = placement;
+        placeVolumes(id, entry, volume, transformsChanged);
         total += placement.count;
     }
 
@@ -368,8 +373,8 @@ void ObjectTable::summarise(const GeometryTable& geometries) {
     _boundsMax = -_boundsMin;
     _nonOpaque = false;
     for (auto& [id, entry] : _entries) {
-        if (entry.placed.count == 0) continue;
-        if (entry.boundsPending) {
+        if (entry.placed.count == 0 && entry.volumes.empty()) continue;
+        if (entry.boundsPending && entry.placed.count > 0) {
             const TriangleMesh& mesh = *geometries.find(entry.desc->geometry)->mesh;
             entry.meshBox = {mesh.boundsMin, mesh.boundsMax};
             updateBox(entry);
@@ -379,7 +384,7 @@ void ObjectTable::summarise(const GeometryTable& geometries) {
         _boundsMax = glm::max(_boundsMax, entry.box.max);
         _nonOpaque |= (entry.placed.flags & gpu::INSTANCE_NON_OPAQUE) != 0;
     }
-    if (_records.empty()) _boundsMin = _boundsMax = glm::vec3(0.f);
+    if (_boundsMin.x > _boundsMax.x) _boundsMin = _boundsMax = glm::vec3(0.f);
 }
 
 void ObjectTable::describe(gpu::SceneRecord& scene) const {

@@ -9,6 +9,7 @@
 
 #include "renderer/scene/geometry_table.h"
 #include "renderer/scene/splat_table.h"
+#include "renderer/scene/volume_table.h"
 #include "renderer/scene/world_box.h"
 #include "renderer/shading/categories.h"
 #include "renderer/shading/materials.h"
@@ -31,12 +32,14 @@ public:
     /// Reports a change of a geometry for all objects that show it.
     void geometryChanged(GeometryId id, Change change, ChangedSet& changed);
     void splatsChanged(SplatsId id, ChangedSet& changed);
+    void volumeChanged(VolumeId id, Change change, ChangedSet& changed);
     /// Whether any change reported since the last commit() is of an object that paths meet.
     bool tracedChanged() const { return _tracedChanged; }
 
     /// Brings the tables up to date with objects, geometries and materials. Returns whether an instance
     /// changed in a way a traversal must know. `materials` null: every object shows the fallback look.
-    bool commit(const GeometryTable& geometries, const SplatTable& splats, const MaterialTable* materials);
+    bool commit(const GeometryTable& geometries, const SplatTable& splats, const VolumeTable& volumes,
+                const MaterialTable* materials);
 
     const std::vector<gpu::InstanceRecord>& records() const { return _records; }
     /// An object that shows a material which emits: its records are `count` from `first` on.
@@ -49,6 +52,8 @@ public:
     std::vector<Emitter> emitters(const MaterialTable& materials) const;
     /// Where clouds of splats stand, in the order of the objects' names; as of the last commit.
     std::vector<SplatPlacement> splats() const;
+    /// Where volumes stand, likewise.
+    std::vector<VolumePlacement> volumes() const;
     /// Goes up with every commit() after which splats() or the clouds it names are others.
     uint64_t splatRevision() const { return _splatRevision; }
     /// Where objects that were changed since the last call had been before; for after the edits, before
@@ -63,7 +68,7 @@ public:
     void describe(gpu::SceneRecord& scene) const;
     /// Every object with what it shows, as of the last commit.
     void dump(SceneDump& dump, const GeometryTable& geometries, const SplatTable& splats,
-              const MaterialNames& nameOf) const;
+              const VolumeTable& volumes, const MaterialNames& nameOf) const;
 
 private:
     /// Where an object's instances are and what they have in common.
@@ -81,12 +86,14 @@ private:
         Buffer primvars;
         uint32_t primvarCount = 0;
         uint64_t primvarTable = 0;
-        WorldBox meshBox, box; ///< of the geometry or the splats, in object space; of all instances
+        WorldBox meshBox, box; ///< of the geometry, splats or volume, in object space; of all instances
         bool transformsPending = true, boundsPending = true;
         bool missingReported = false;
         bool fresh = false; ///< added since the last commit: what else is said of it is no change
-        std::vector<SplatPlacement> splats; ///< of `usable`, as of the last commit
-        uint32_t splatSet = 0;              ///< SplatSet::revision of what they show
+        std::vector<SplatPlacement> splats;   ///< of `usable`, as of the last commit
+        uint32_t splatSet = 0;                ///< SplatSet::revision of what they show
+        std::vector<VolumePlacement> volumes; ///< of `usable`, as of the last commit
+        uint32_t volumeRevision = 0;          ///< VolumeEntry::revision of what they show
     };
 
     void dumpInstances(SceneDump::Element& out, const Entry& entry) const;
@@ -96,6 +103,12 @@ private:
     const Geometry* shownGeometry(Entry& entry, const GeometryTable& geometries);
     const SplatSet* shownSplats(Entry& entry, const SplatTable& splats);
     void placeSplats(Entry& entry, const SplatSet* shown, bool transformsChanged);
+    const VolumeEntry* shownVolume(Entry& entry, const VolumeTable& volumes);
+    void placeVolumes(ObjectId id, Entry& entry, const VolumeEntry* shown, bool transformsChanged);
+    static size_t placedCount(const Entry& entry) {
+        return entry.placed.count + entry.splats.size() + entry.volumes.size();
+    }
+    const glm::mat4x3& placedTransform(const Entry& entry, uint32_t i) const;
     Placement place(Entry& entry, const Geometry* geometry, const MaterialTable* materials, uint32_t first,
                     std::vector<uint32_t>& materialIndices);
     /// Ids by the name of the object: hits at equal distance go to the first, and ids tell the history of

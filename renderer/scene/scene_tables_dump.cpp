@@ -26,23 +26,50 @@ void GeometryTable::dump(SceneDump& dump) const {
 // The primId is left out: hosts number prims in the order in which they came. So are categories: objects may
 // be in some that no light names any more.
 void ObjectTable::dump(SceneDump& dump, const GeometryTable& geometries, const SplatTable& splats,
-                       const MaterialNames& nameOf) const {
+                       const VolumeTable& volumes, const MaterialNames& nameOf) const {
     for (const auto& [id, entry] : _entries) {
         SceneDump::Element& out = dump.element("object", entry.desc ? entry.desc->name : "");
         out.fact("visible", entry.desc && entry.desc->visible);
-        out.fact("rendered", entry.placed.count > 0 || !entry.splats.empty());
+        out.fact("rendered", placedCount(entry) > 0);
         out.fact("nonOpaque", (entry.placed.flags & gpu::INSTANCE_NON_OPAQUE) != 0);
         if (!entry.desc) continue;
         const Geometry* geometry = geometries.find(entry.desc->geometry);
         out.fact("geometry", geometry ? geometry->mesh->name : std::string());
         const SplatSet* set = splats.find(entry.desc->splats);
         out.fact("splats", set ? set->cloud->name : std::string());
+        const VolumeEntry* volume = volumes.find(entry.desc->volume);
+        out.fact("volume", volume ? volume->desc.name : std::string());
         for (uint32_t slot = 0; slot < entry.desc->materials.size(); ++slot)
             out.fact("slot", slot, "bound", nameOf.byId(entry.desc->materials[slot]));
         for (uint32_t slot = 0; slot < entry.placed.materialCount; ++slot)
             out.fact("slot", slot, "shown",
                      nameOf.byIndex(_materialIndices[entry.placed.firstMaterial + slot]));
         dumpInstances(out, entry);
+    }
+}
+
+void VolumeTable::dump(SceneDump& dump, const MaterialNames& nameOf) const {
+    const auto describe = [](SceneDump::Element& out, const VolumeLook& look) {
+        out.fact("look", look.absorption, look.scattering, look.anisotropy, look.emission,
+                 look.temperatureScale, look.emissionByDensity);
+    };
+    for (const auto& [id, look] : _looks)
+        describe(dump.element("volumeLook", nameOf.byId(id)), look);
+    for (const auto& [id, entry] : _volumes) {
+        SceneDump::Element& out = dump.element("volume", entry.desc.name);
+        describe(out, entry.desc.look);
+        const std::pair<const char*, FieldId> fields[] = {{"density", entry.desc.density},
+                                                          {"emission", entry.desc.emission},
+                                                          {"temperature", entry.desc.temperature},
+                                                          {"color", entry.desc.color}};
+        for (const auto& [role, field] : fields) {
+            const auto found = _fields.find(field);
+            if (found == _fields.end()) continue;
+            const FieldGrid& grid = *found->second.grid;
+            out.fact(role, grid.name, grid.channels, grid.first, grid.bricks, grid.latticeToObject);
+            out.fact(role, "bricks", contentHash(grid.index), "values", grid.values.size(),
+                     contentHash(grid.values));
+        }
     }
 }
 
@@ -75,7 +102,8 @@ void GpuScene::dump(std::ostream& out, const Settings& settings) const {
         dumpLight(dump, desc, _lights.emits(id));
     _geometries.dump(dump);
     _splats.dump(dump);
-    _objects.dump(dump, _geometries, _splats, names);
+    _volumes.dump(dump, names);
+    _objects.dump(dump, _geometries, _splats, _volumes, names);
     SceneDump::Element& options = dump.element("option", "scene");
     options.fact("lights", _options.lights);
     options.fact("materials", _options.materials);

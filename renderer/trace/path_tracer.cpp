@@ -35,6 +35,8 @@ void PathTracer::setup(gpu::TraceRecord record, const gpu::CameraRecord& camera,
     _sceneFlags = sceneFlags;
     if ((sceneFlags & gpu::SCENE_HAS_MESH_LIGHTS) && !_emission)
         _emission = std::make_unique<BackgroundKernels>(_device, emissionKernelSource());
+    if ((sceneFlags & gpu::SCENE_HAS_VOLUMES) && !_volumeKernels)
+        _volumeKernels = std::make_unique<BackgroundKernels>(_device, volumeKernelSources());
     _device.upload(_record, &record, sizeof(record));
     _device.upload(_camera, &camera, sizeof(camera));
 }
@@ -79,6 +81,12 @@ void PathTracer::discover(Steps& steps, const char* name, const Discovering& dis
         dispatchQueue(steps, name, discovery.passes->kernel(id), queue + turn, turn, discovery.scouts);
 }
 
+void PathTracer::passVolumes(Steps& steps, const char* name, VolumeKernelId id, uint32_t queue,
+                             uint32_t turn) {
+    if (_sceneFlags & gpu::SCENE_HAS_VOLUMES)
+        dispatchQueue(steps, name, _volumeKernels->get(size_t(id)), queue + turn, turn);
+}
+
 uint32_t PathTracer::queueCount(uint32_t queue) {
     gpu::QueueHeader header;
     _device.download(_buffers.headers, &header, sizeof(header), WavefrontBuffers::headerOffset(queue));
@@ -102,6 +110,7 @@ void PathTracer::resolveShadows(Steps& steps, uint32_t turn) {
     steps.occluded("trace shadow", _buffers.shadowQueue(turn));
     if (_sceneFlags & gpu::SCENE_HAS_MESH_LIGHTS)
         dispatchQueue(steps, "emission", _emission->get(0), gpu::QUEUE_SHADOW + turn, turn);
+    passVolumes(steps, "volume shadow", VolumeKernelId::Shadow, gpu::QUEUE_SHADOW, turn);
     dispatchQueue(steps, "shadow", kernel(KernelId::Shadow), gpu::QUEUE_SHADOW + turn, turn);
     const bool shadows = _sceneFlags & gpu::SCENE_HAS_SHADOWS_TO_WALK;
     if (!shadows && !(_sceneFlags & gpu::SCENE_HAS_NON_OPAQUE)) return;
@@ -129,6 +138,7 @@ bool PathTracer::tracePaths(Steps& steps, const std::vector<gpu::TileWork>& work
         if (cancel) return false;
         steps.nearest("trace rays", _buffers.rayQueue(turn));
         if (round > 0) resolveShadows(steps, other);
+        passVolumes(steps, "volume", VolumeKernelId::Flight, gpu::QUEUE_RAYS, turn);
         discover(steps, "discover", discovery, DiscoveryKernelId::Discover, gpu::QUEUE_RAYS, turn);
         dispatchQueue(steps, "shade", kernel(KernelId::Shade), gpu::QUEUE_RAYS + turn, turn);
         prepare(steps, bit(gpu::QUEUE_RAYS + other) | bit(gpu::QUEUE_SHADOW + turn),

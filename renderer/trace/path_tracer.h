@@ -11,6 +11,7 @@
 ///            -> shade                             collects light, scatters; fills the shadow queue and the
 ///            other
 ///            -> prepare                           ray queue; sizes the next dispatches
+///     With volumes, `volume` runs before `shade` and `volume shadow` before `shadow` (docs/volumes.md).
 ///     With a discovery, its kernels run before and behind `shade` (renderer/trace/discovery_passes.h).
 ///     resolve                                     adds the samples of each pixel to the film, in order; or
 ///     scout                                       compares them with the picture on display (renderer/hipr)
@@ -38,6 +39,7 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
 
 #include "renderer/trace/discovery_passes.h"
 #include "renderer/trace/steps.h"
@@ -53,7 +55,8 @@ public:
 
     /// Whether all kernels are compiled; waits up to `patience` for it.
     bool ready(std::chrono::milliseconds patience) {
-        return _kernels.ready(patience) && (!_emission || _emission->ready(patience));
+        return _kernels.ready(patience) && (!_emission || _emission->ready(patience)) &&
+               (!_volumeKernels || _volumeKernels->ready(patience));
     }
     uint32_t capacity() const { return _buffers.capacity; }
 
@@ -100,13 +103,15 @@ private:
     void discover(Steps& steps, const char* name, const Discovering& discovery, DiscoveryKernelId id,
                   uint32_t queue, uint32_t turn);
     void resolveShadows(Steps& steps, uint32_t turn);
+    void passVolumes(Steps& steps, const char* name, VolumeKernelId id, uint32_t queue, uint32_t turn);
     const Kernel& kernel(KernelId id) { return _kernels.get(size_t(id)); }
     uint32_t queueCount(uint32_t queue);
     gpu::TraceKernelPush push() const { return {_record.address(), 0, 0, 0, 0}; }
 
     Device& _device;
     BackgroundKernels _kernels;
-    std::unique_ptr<BackgroundKernels> _emission; ///< once a scene has asked for it
+    std::unique_ptr<BackgroundKernels> _emission;      ///< once a scene has asked for it
+    std::unique_ptr<BackgroundKernels> _volumeKernels; ///< once a scene had volumes
     WavefrontBuffers _buffers;
     Buffer _record, _camera;
     VkDeviceAddress _scene = 0;

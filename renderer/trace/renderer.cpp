@@ -361,6 +361,7 @@ MemoryReport RendererImpl::memory() const {
     MemoryReport report = _device->memory();
     report.rows.push_back({"Host: meshes", _scene.meshHostBytes()});
     report.rows.push_back({"Host: splats", _scene.splatHostBytes()});
+    report.rows.push_back({"Host: volumes", _scene.volumeHostBytes()});
     report.rows.push_back({"Host: acceleration structures", _scene.traversalHostBytes()});
     return report;
 }

@@ -25,4 +25,13 @@ std::vector<KernelSource> emissionKernelSource() {
     return {{spirv::emission_spv, spirv::emission_spv_size, sizeof(gpu::TraceKernelPush), "emission"}};
 }
 
+std::vector<KernelSource> volumeKernelSources() {
+    constexpr uint32_t push = sizeof(gpu::TraceKernelPush);
+    using namespace spirv;
+    return {
+        {volume_spv, volume_spv_size, push, "volume"},
+        {volume_shadow_spv, volume_shadow_spv_size, push, "volume_shadow"},
+    };
+}
+
 } // namespace hipr

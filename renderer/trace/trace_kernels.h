@@ -16,4 +16,8 @@ std::vector<KernelSource> traceKernelSources();
 /// The kernel that only scenes with SCENE_HAS_MESH_LIGHTS need.
 std::vector<KernelSource> emissionKernelSource();
 
+/// Those that only scenes with volumes need, in the same way.
+enum class VolumeKernelId { Flight, Shadow };
+std::vector<KernelSource> volumeKernelSources();
+
 } // namespace hipr

@@ -99,12 +99,17 @@ struct SceneRecord {
     uint64_t specularAlbedo; // vec2[]: see renderer/shading/albedo.h
     uint64_t openPbrAlbedo;  // tables of renderer/shading/openpbr_albedo.h; 0 without a material of that model
     uint64_t categorySets;   // uint[][1 + categoryWords]: mark and bits of sets of categories, see renderer/shading/categories.h
+    uint64_t volumes;        // VolumeRecord[volumeCount] (shaders/shared/volume.h)
+    uint64_t blackbody;      // vec3[BLACKBODY_STEPS]; 0 without volumes
+    uint volumeCount;
 };
 
 HIPR_CONST uint SCENE_HAS_NON_OPAQUE = 1u;
 HIPR_CONST uint SCENE_DOME_HIDDEN_FROM_CAMERA = 2u;
 HIPR_CONST uint SCENE_HAS_SHADOWS_TO_WALK = 4u; // some light has a ShadowRecord
 HIPR_CONST uint SCENE_HAS_MESH_LIGHTS = 8u;
+
+HIPR_CONST uint SCENE_HAS_VOLUMES = 64u;
 
 HIPR_SHARED_END
 #endif

@@ -85,7 +85,7 @@ struct ShadowWork {
     uint slot;               // path; SHADOW_INDIRECT added when it belongs to PathState::indirect
     uint64_t shadow;         // LightRecord::shadow
     float weight;            // against finding the light by the BSDF, which takes a free way
-    uint pad;
+    uint event;              // of the path when it was sampled: tells its random numbers from those of others
 };
 
 // The same on its way through surfaces.

@@ -7,6 +7,7 @@
 #include "material/surface.glsl"
 #include "material/bsdf.glsl"
 #include "shared/reproject.h"
+#include "shared/volume.h"
 
 // How far, as a share of the depth, the plane of a surface is followed to the pixel's centre.
 const float PLANE_REACH = 0.05;
@@ -38,7 +39,7 @@ void sampleDirectLight(TraceRecord trace, SceneRecord scene, Path path, Surface 
         Ray(offsetTowards(surface, light.wi), 0.0, light.wi, light.distance * (1.0 - 1e-4));
     ShadowWorkRef(trace.shadowWork).v[i] =
         ShadowWork(contribution, path.depth > 0u ? path.slot | SHADOW_INDIRECT : path.slot, light.shadow,
-                   lightMisWeight(light, bsdfPdf), 0u);
+                   lightMisWeight(light, bsdfPdf), path.event);
     if (scene.instanceLights != 0ul) HitRef(trace.shadowEnds).v[i] = light.end;
 }
 
@@ -161,6 +162,7 @@ void main() {
     if (i >= HeaderRef(trace.headers).v[QUEUE_RAYS + push.turn].count) return;
     const SceneRecord scene = SceneRef(trace.scene).v;
     const Hit hit = HitRef(trace.hits).v[i];
+    if (hit.primitive == HIT_TAKEN) return;
     Ray ray = RayRef(trace.rays[push.turn]).v[i];
     Path path = loadPath(trace, SlotRef(trace.raySlots[push.turn]).v[i]);
 

@@ -1,0 +1,382 @@
+// Volumes against closed forms and numeric integrals.
+#include <cmath>
+#include <functional>
+
+#include <glm/gtc/constants.hpp>
+#include <gtest/gtest.h>
+
+#include "renderer/shading/blackbody.h"
+#include "renderer/volumes/field_builder.h"
+#include "testenv/render/scene_kit.h"
+
+using namespace hipr;
+using namespace hipr::test;
+
+namespace {
+
+using Values = std::function<float(glm::ivec3)>;
+
+/// A field of values at the points lo..hi of a lattice with this spacing; 0 elsewhere.
+std::shared_ptr<const FieldGrid> makeField(glm::ivec3 lo, glm::ivec3 hi, double spacing,
+                                           const Values& value) {
+    FieldBuilder builder("field", 1, glm::dmat4x3(glm::scale(glm::dmat4(1), glm::dvec3(spacing))));
+    const auto brickOf = [](int point) { return point >= 0 ? point / 8 : -((7 - point) / 8); };
+    for (int z = brickOf(lo.z - 1); z <= brickOf(hi.z); ++z)
+        for (int y = brickOf(lo.y - 1); y <= brickOf(hi.y); ++y)
+            for (int x = brickOf(lo.x - 1); x <= brickOf(hi.x); ++x) {
+                std::vector<float> values;
+                for (int i = 0; i < int(FieldGrid::BrickPoints); ++i) {
+                    const glm::ivec3 p = glm::ivec3(x, y, z) * 8 + glm::ivec3(i % 9, i / 9 % 9, i / 81);
+                    const bool inside =
+                        glm::all(glm::lessThanEqual(lo, p)) && glm::all(glm::lessThanEqual(p, hi));
+                    values.push_back(inside ? value(p) : 0.f);
+                }
+                builder.add({x, y, z}, values);
+            }
+    return builder.finish();
+}
+
+/// Points -24..24 by x and y and 0..19 by z, a tenth apart: seen along z, its values integrate to a tenth of
+/// their sum.
+constexpr int Deep = 20;
+constexpr double Spacing = 0.1;
+
+std::shared_ptr<const FieldGrid> slab(const std::function<float(int)>& value) {
+    return makeField({-24, -24, 0}, {24, 24, Deep - 1}, Spacing, [&](glm::ivec3 p) { return value(p.z); });
+}
+std::shared_ptr<const FieldGrid> slab(float value) {
+    return slab([=](int) { return value; });
+}
+
+VolumeLook absorbing(glm::vec3 absorption) {
+    VolumeLook look;
+    look.absorption = absorption;
+    look.scattering = glm::vec3(0.f);
+    return look;
+}
+VolumeLook scattering(float extinction, float albedo, float anisotropy = 0.f) {
+    VolumeLook look;
+    look.scattering = glm::vec3(extinction * albedo);
+    look.absorption = glm::vec3(extinction * (1.f - albedo));
+    look.anisotropy = anisotropy;
+    return look;
+}
+
+LightDesc sky(float radiance = 1.f) {
+    LightDesc light;
+    light.name = "/sky";
+    light.kind = LightKind::Dome;
+    light.intensity = radiance;
+    return light;
+}
+
+Settings makeSettings(uint32_t samples, int depth = 1) {
+    Settings settings;
+    settings.samples = int(samples);
+    settings.maxDepth = depth;
+    settings.rouletteDepth = 64;
+    return settings;
+}
+
+/// Volumes seen along -z from z = 10, so narrowly that all rays go straight.
+class Box {
+public:
+    explicit Box(uint32_t samples = 256, int depth = 1)
+        : stage(makeSettings(samples, depth)), samples(samples) {
+        stage.edit.setCamera(lookAt({0.03, 0.02, 10}, {0.03, 0.02, 0}, 0.5));
+        stage.film(Size, Size);
+    }
+    struct Fields {
+        std::shared_ptr<const FieldGrid> density, emission = {}, temperature = {}, color = {};
+    };
+    ObjectId add(const Fields& fields, const VolumeLook& look,
+                 std::vector<glm::mat4x3> transforms = {glm::mat4x3(1.f)}) {
+        const uint32_t id = 10 * ++_volumes;
+        VolumeDesc desc;
+        desc.name = "/volume" + std::to_string(id);
+        desc.look = look;
+        uint32_t next = id;
+        const auto set = [&](const std::shared_ptr<const FieldGrid>& grid, FieldId& field) {
+            if (!grid) return;
+            field = FieldId(next++);
+            stage.edit.setField(field, grid);
+        };
+        set(fields.density, desc.density);
+        set(fields.emission, desc.emission);
+        set(fields.temperature, desc.temperature);
+        set(fields.color, desc.color);
+        stage.edit.setVolume(VolumeId(id), desc);
+        ObjectDesc object;
+        object.name = desc.name;
+        object.volume = VolumeId(id);
+        object.primId = int(id);
+        stage.edit.setObject(ObjectId(1000 + id), object);
+        stage.edit.setInstances(ObjectId(1000 + id), {std::move(transforms), {}, {}, {}});
+        return ObjectId(1000 + id);
+    }
+    glm::vec4 shown() {
+        stage.render();
+        for (const Message& message : stage.messages())
+            EXPECT_TRUE(message.severity == Severity::Info) << message.text;
+        return mean(stage.color());
+    }
+    /// Three standard deviations of the mean of numbers that are 1 with this chance, else 0.
+    float spread(float chance) const {
+        return 3.f * std::sqrt(chance * (1.f - chance) / float(samples * Size * Size)) + 1e-5f;
+    }
+
+    static constexpr uint32_t Size = 8;
+    Stage stage;
+    const uint32_t samples;
+
+private:
+    uint32_t _volumes = 0;
+};
+
+/// The share that gets through the slab of these values.
+float through(const std::function<float(int)>& value, float extinction) {
+    double depth = 0.0;
+    for (int i = 0; i < Deep; ++i)
+        depth += Spacing * double(value(i));
+    return float(std::exp(-depth * double(extinction)));
+}
+
+} // namespace
+
+TEST(Volumes, ConstantDensityFollowsBeersLaw) {
+    for (const float density : {0.1f, 0.7f, 2.f}) {
+        Box box;
+        box.add({slab(density)}, absorbing(glm::vec3(1.f)));
+        box.stage.add(sky());
+        const glm::vec4 seen = box.shown();
+        const float expected = through([=](int) { return density; }, 1.f);
+        EXPECT_NEAR(seen.x, expected, box.spread(expected)) << density;
+        EXPECT_NEAR(seen.w, 1.f - expected, box.spread(expected)) << density;
+        EXPECT_EQ(seen.x, seen.y);
+    }
+}
+
+TEST(Volumes, RampOfDensityFollowsItsIntegral) {
+    const auto ramp = [](int i) { return 0.05f * float(i); };
+    Box box(1024);
+    box.add({slab(ramp)}, absorbing(glm::vec3(1.5f)));
+    box.stage.add(sky());
+    const float expected = through(ramp, 1.5f);
+    EXPECT_NEAR(box.shown().x, expected, box.spread(expected));
+}
+
+TEST(Volumes, EveryColorIsAbsorbedByItsOwnLaw) {
+    Box box(1024);
+    const glm::vec3 absorption(0.1f, 0.4f, 1.f);
+    box.add({slab(1.f)}, absorbing(absorption));
+    box.stage.add(sky());
+    const glm::vec4 seen = box.shown();
+    for (int c = 0; c < 3; ++c) {
+        const float expected = through([](int) { return 1.f; }, absorption[c]);
+        EXPECT_NEAR(seen[c], expected, box.spread(expected)) << c; // weights vary less than all or nothing
+    }
+}
+
+TEST(Volumes, TransformsMoveTheFieldAndNotItsUnits) {
+    // Twice as deep by its scale; then turned, so that its depth lies along x, and far thinner along z.
+    const glm::mat4x3 deeper = scaling(1, 1, 2);
+    Box box;
+    box.add({slab(0.3f)}, absorbing(glm::vec3(1.f)), {deeper});
+    box.stage.add(sky());
+    const float expected = std::exp(-0.3f * 2.f * float(Deep * Spacing));
+    EXPECT_NEAR(box.shown().x, expected, box.spread(expected));
+
+    Box turned;
+    const glm::mat4x3 aside({0, 0, 0.5f}, {0, 1, 0}, {1, 0, 0}, {-1, 0, 0});
+    turned.add({slab(0.3f)}, absorbing(glm::vec3(1.f)), {aside});
+    turned.stage.add(sky());
+    const float wide = std::exp(-0.3f * 0.5f * float(49 * Spacing));
+    EXPECT_NEAR(turned.shown().x, wide, turned.spread(wide));
+}
+
+TEST(Volumes, InstancesAndOverlappingVolumesAddUp) {
+    Box box;
+    box.add({slab(0.2f)}, absorbing(glm::vec3(1.f)),
+            {translation(0, 0, 0), translation(0, 0, -5), translation(0, 0, 0.5f)});
+    box.add({slab(0.1f)}, absorbing(glm::vec3(2.f)), {translation(0, 0, 0.3f)});
+    box.stage.add(sky());
+    const float expected = std::exp(-0.8f * float(Deep * Spacing));
+    EXPECT_NEAR(box.shown().x, expected, box.spread(expected));
+}
+
+TEST(Volumes, CameraAndSurfacesMayBeInside) {
+    Box box;
+    box.add({makeField({-24, -24, -24}, {24, 24, 24}, 0.5, [](glm::ivec3) { return 0.4f; })},
+            absorbing(glm::vec3(1.f)));
+    MaterialDesc lamp = matte(glm::vec3(0.f));
+    lamp.emissiveColor = constantColor(glm::vec3(1.f));
+    box.stage.add(quadMesh(), lamp, {placed(scaling(4, 4, 1), 0, 0, 8)});
+    const float expected = std::exp(-0.4f * 1.9f); // from the near plane at z = 9.9 to z = 8
+    EXPECT_NEAR(box.shown().x, expected, box.spread(expected));
+}
+
+TEST(Volumes, EmissionIsAttenuatedOnItsWay) {
+    VolumeLook look = absorbing(glm::vec3(1.f));
+    look.emission = {0.5f, 1.f, 2.f};
+    Box bare(16);
+    bare.add({nullptr, slab(0.3f)}, look);
+    const glm::vec4 seen = bare.shown();
+    for (int c = 0; c < 3; ++c) // a comb of points hardly varies
+        EXPECT_NEAR(seen[c], look.emission[c] * 0.3f * float(Deep * Spacing), 0.01f * look.emission[c]);
+    EXPECT_EQ(seen.w, 0.f);
+
+    Box dark(1024);
+    look.emissionByDensity = true;
+    dark.add({slab(0.5f)}, look);
+    const float expected = 1.f - through([](int) { return 0.5f; }, 1.f);
+    const glm::vec4 glow = dark.shown();
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(glow[c] / look.emission[c], expected, 0.01f);
+}
+
+TEST(Volumes, HotVolumesGlowAsBlackBodies) {
+    VolumeLook look;
+    look.temperatureScale = 1000.f;
+    Box box(64);
+    box.add({nullptr, nullptr, slab(3.f)}, look);
+    const double radiance = 5.670374419e-14 / glm::pi<double>() * std::pow(3000.0, 4.0);
+    // Its edges are cooler: one step from 0 to 3000 K on either side adds 2/5 of a step in full (the integral
+    // of T^4).
+    const glm::vec3 expected = blackbodyColor(3000.f) * float(radiance * Spacing * (Deep - 1 + 0.4));
+    const glm::vec4 seen = box.shown();
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(seen[c], expected[c], 0.015f * expected[c]) << c;
+}
+
+TEST(Volumes, WhiteFurnace) {
+    for (const float anisotropy : {0.f, 0.7f, -0.5f}) {
+        Box box(256, 64);
+        box.add({slab(1.5f)}, scattering(1.f, 1.f, anisotropy));
+        box.add({slab(0.5f)}, scattering(2.f, 1.f, 0.3f), {translation(0.3f, 0, 0.7f)});
+        box.stage.add(sky());
+        const glm::vec4 seen = box.shown();
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(seen[c], 1.f, 0.015f) << anisotropy;
+    }
+}
+
+/// A lamp that both light samples and scattered rays find: thin fog beside a ball, against an integral in
+/// small steps.
+TEST(Volumes, SingleScatteringOfALampBesideTheVolume) {
+    constexpr float Density = 0.02f, Radius = 1.f, Away = 2.5f;
+    Box box(4096);
+    box.add({slab(Density)}, scattering(1.f, 1.f));
+    LightDesc ball;
+    ball.name = "/ball";
+    ball.radius = Radius;
+    ball.intensity = 100.f;
+    ball.transform = glm::translate(glm::dmat4(1), glm::dvec3(Away, 0, 1));
+    box.stage.add(ball);
+    double expected = 0;
+    constexpr int Steps = 2000;
+    for (int i = 0; i < Steps; ++i) {
+        const double z =
+            Deep * Spacing * (i + 0.5) / Steps - 0.5 * Spacing; // half of the edges' ramps lies outside
+        const double squared = Away * Away + (z - 1) * (z - 1);
+        const double angle = 2 * glm::pi<double>() * (1 - std::sqrt(1 - Radius * Radius / squared));
+        const double before = Density * (Deep * Spacing - z), aside = Density * (std::sqrt(squared) - Radius);
+        expected += Deep * Spacing / Steps * Density * 100 * angle / (4 * glm::pi<double>()) *
+                    std::exp(-before - aside);
+    }
+    EXPECT_NEAR(box.shown().x, expected, 0.03 * expected);
+}
+
+TEST(Volumes, SingleScatteringOfADistantLight) {
+    for (const float g : {0.f, 0.6f}) {
+        Box box(1024);
+        box.add({slab(0.4f)}, scattering(1.f, 0.5f, g));
+        LightDesc sun;
+        sun.name = "/sun";
+        sun.kind = LightKind::Distant; // along -z, as the camera looks
+        sun.angle = 0.f;
+        sun.intensity = 10.f;
+        box.stage.add(sun);
+        const float depth = 0.4f * float(Deep * Spacing);
+        const float phase =
+            (1 - g * g) / (4 * glm::pi<float>() * std::pow(1 + g * g + 2 * g, 1.5f)); // back to the light
+        const float expected = 10.f * 0.5f * phase * 0.5f * (1.f - std::exp(-2.f * depth));
+        EXPECT_NEAR(box.shown().x, expected, 0.02f * expected) << g;
+    }
+}
+
+/// A floor in the shadow of a cloud whose density is known everywhere, against an integral in small steps.
+TEST(Volumes, ShadowsAreTheCloudsTransmittance) {
+    const auto density = [](glm::ivec3 p) {
+        return std::max(0.f, 1.5f - 0.1f * glm::length(glm::vec3(p))) * float(1 + (p.x & 1));
+    };
+    Stage stage(makeSettings(4096));
+    stage.add(quadMesh(), matte(glm::vec3(1.f)), {placed(scaling(9, 9, 1), 0, 0, -3)});
+    stage.edit.setField(FieldId(1), makeField(glm::ivec3(-16), glm::ivec3(16), 0.1, density));
+    VolumeDesc desc;
+    desc.name = "/cloud";
+    desc.density = FieldId(1);
+    desc.look = absorbing(glm::vec3(0.5f, 1.f, 1.f));
+    stage.edit.setVolume(VolumeId(2), desc);
+    ObjectDesc object;
+    object.name = "/cloud";
+    object.volume = VolumeId(2);
+    stage.edit.setObject(ObjectId(900), object);
+    LightDesc sun;
+    sun.name = "/sun";
+    sun.kind = LightKind::Distant;
+    sun.angle = 0.f;
+    stage.add(sun);
+    stage.edit.setCamera(lookAt({0.223, 0.117, -2.5}, {0.223, 0.117, -3}, 0.01)); // from below the cloud
+    stage.film(4, 4);
+    const auto at = [&](double x, double y, double z) { // trilinear
+        const glm::dvec3 p = glm::dvec3(x, y, z) / 0.1, f = p - glm::floor(p);
+        const glm::ivec3 c(glm::floor(p));
+        double sum = 0;
+        for (int i = 0; i < 8; ++i) {
+            const glm::ivec3 o(i & 1, i >> 1 & 1, i >> 2);
+            const glm::dvec3 w = glm::mix(1.0 - f, f, glm::dvec3(o));
+            sum += w.x * w.y * w.z * double(density(c + o));
+        }
+        return sum;
+    };
+    double depth = 0;
+    for (int i = 0; i < 40000; ++i)
+        depth += 1e-4 * at(0.223, 0.117, -2.0 + 1e-4 * (i + 0.5));
+    stage.render();
+    const glm::vec4 seen = mean(stage.color());
+    EXPECT_NEAR(seen.x * glm::pi<float>(), std::exp(-0.5 * depth), 0.02 * std::exp(-0.5 * depth));
+    EXPECT_NEAR(seen.y * glm::pi<float>(), std::exp(-depth), 0.03 * std::exp(-depth));
+}
+
+TEST(Volumes, PicturesAreTheSameInAllModesAndBatches) {
+    std::vector<ColorPicture> pictures;
+    for (const char* mode : {"uniform", "delta", "paper"}) {
+        Settings settings = makeSettings(8, 4);
+        settings.mode = mode;
+        RendererInternals internals;
+        internals.batchPaths = 500 + 300 * uint32_t(pictures.size());
+        Stage stage(settings, internals);
+        addFloor(stage);
+        stage.add(sky());
+        stage.edit.setField(FieldId(1), slab(1.f));
+        VolumeDesc desc;
+        desc.name = "/cloud";
+        desc.density = desc.emission = FieldId(1);
+        stage.edit.setVolume(VolumeId(2), desc);
+        ObjectDesc object;
+        object.name = "/cloud";
+        object.volume = VolumeId(2);
+        stage.edit.setObject(ObjectId(900), object);
+        stage.edit.setCamera(lookAt({1, 2, 6}, {0, 0, 0}));
+        stage.film(32, 32);
+        stage.render();
+        for (float x : {0.5f, -0.2f}) { // edits, which a fresh picture must not tell
+            stage.edit.setInstances(ObjectId(900), {{translation(x, 0, 0)}, {}, {}, {}});
+            stage.render();
+        }
+        pictures.push_back(stage.color());
+        save(pictures.back(), std::string("volumes_") + mode);
+    }
+    EXPECT_TRUE(sameBits(pictures[0], pictures[1]));
+    EXPECT_TRUE(sameBits(pictures[0], pictures[2]));
+}
