@@ -34,6 +34,7 @@ protected:
                                              "--stats", file("a.json")});
         const Outcome outcome = run(command(std::move(arguments)));
         EXPECT_EQ(outcome.code, 0) << outcome.text;
+        said = outcome.text;
         std::ifstream(file("a.json")) >> stats;
         stats = stats["frames"].back()["renderStats"];
         return summarise(ImageFile(file("a.exr")));
@@ -67,6 +68,7 @@ protected:
     double memory(const std::string& kind) const { return stats.value("hipr:memory:" + kind, 0.0) / MiB; }
 
     nlohmann::json stats;
+    std::string said; ///< what the recorder wrote
 };
 
 TEST_F(RealScenes, TeapotDrawModes) {
@@ -89,6 +91,20 @@ TEST_F(RealScenes, MiniCar) {
     EXPECT_GT(shown.luminance, 0.01);
     EXPECT_GT(shown.contrast, 0.01);
     EXPECT_GE(shown.prims.size(), 5u);
+}
+
+/// Materials of MaterialX documents: images, normal maps, metal, glass, subsurface.
+TEST_F(RealScenes, ChessSet) {
+    const Summary shown =
+        recordScene(asset("full_assets/OpenChessSet/chess_set.usda"), {"--size", "160x90", "--samples", "2"});
+    EXPECT_GT(shown.coverage, 0.2);
+    EXPECT_LT(shown.coverage, 0.5);
+    EXPECT_GT(shown.luminance, 0.01);
+    EXPECT_GT(shown.contrast, 0.02);
+    EXPECT_GE(shown.prims.size(), 20u) << "board and pieces";
+    EXPECT_THAT(said, testing::Not(testing::HasSubstr("not supported")));
+    EXPECT_THAT(said, testing::Not(testing::HasSubstr(".mtlx")));
+    EXPECT_THAT(said, testing::Not(testing::HasSubstr("texture")));
 }
 
 /// 524 native instances and 529 point-instanced prototypes of a teapot with 2,472 triangles. The published
