@@ -4,7 +4,6 @@
 
 #include "plugin/hdHipr/messages.h"
 #include "pxr/base/tf/stringUtils.h"
-#include "renderer/api/curves.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
 
@@ -62,7 +61,8 @@ void setLineWidth(hipr::CurvesDesc& desc) {
 
 std::shared_ptr<const hipr::TriangleMesh> HdHiprBasisCurves::readShape(HdSceneDelegate& delegate) {
     const HdBasisCurvesTopology topology = GetBasisCurvesTopology(&delegate);
-    hipr::CurvesDesc desc;
+    _desc = {};
+    hipr::CurvesDesc& desc = _desc;
     desc.name = GetId().GetString();
     desc.basis = basisOf(topology);
     desc.wrap = wrapOf(topology);
@@ -86,6 +86,12 @@ std::shared_ptr<const hipr::TriangleMesh> HdHiprBasisCurves::readShape(HdSceneDe
     if (desc.wrap == hipr::CurveWrap::Segments) {
         setLineWidth(desc);
     }
+    return hipr::buildCurves(desc, report);
+}
+
+std::shared_ptr<const hipr::TriangleMesh> HdHiprBasisCurves::shapeOf(VtValue const& points) {
+    hipr::CurvesDesc desc = _desc;
+    desc.points = toVec3s(points);
     return hipr::buildCurves(desc, report);
 }
 

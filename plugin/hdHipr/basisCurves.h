@@ -4,6 +4,7 @@
 
 #include "plugin/hdHipr/shapePrim.h"
 #include "pxr/imaging/hd/basisCurves.h"
+#include "renderer/api/curves.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
 
@@ -13,6 +14,10 @@ public:
 
 protected:
     std::shared_ptr<const hipr::TriangleMesh> readShape(HdSceneDelegate& delegate) override;
+    std::shared_ptr<const hipr::TriangleMesh> shapeOf(VtValue const& points) override;
+
+private:
+    hipr::CurvesDesc _desc; ///< as read last
 };
 
 PXR_NAMESPACE_CLOSE_SCOPE

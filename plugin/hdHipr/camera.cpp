@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plugin/hdHipr/convert.h"
 #include "plugin/hdHipr/messages.h"
+#include "plugin/hdHipr/motion.h"
 #include "plugin/hdHipr/renderParam.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
@@ -72,14 +74,23 @@ void HdHiprCamera::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, H
         const Params params(delegate, GetId());
         _lens = lensOf(params, GetId());
         _exposure = exposureOf(params, GetId());
-        static_cast<HdHiprRenderParam*>(renderParam)
-            ->setShutter(GetId(), params.get("shutterClose", 0.0) > params.get("shutterOpen", 0.0));
+        _shutter = {params.get("shutterOpen", 0.0), params.get("shutterClose", 0.0)};
+        if (static_cast<HdHiprRenderParam*>(renderParam)->setShutter(GetId(), _shutter)) {
+            delegate->GetRenderIndex().GetChangeTracker().MarkAllRprimsDirty(HdChangeTracker::DirtyTransform |
+                                                                             HdChangeTracker::DirtyPoints);
+        }
+    }
+    _motion.clear();
+    const hdhipr::Samples<GfMatrix4d> samples =
+        _shutter.blurs() ? hdhipr::sampleTransform(*delegate, GetId()) : hdhipr::Samples<GfMatrix4d>();
+    for (size_t i = 0; i < samples.times.size() && samples.moves(); ++i) {
+        _motion.push_back({samples.times[i], hdhipr::toGlm(samples.values[i].GetInverse())});
     }
     HdCamera::Sync(delegate, renderParam, dirtyBits);
 }
 
 void HdHiprCamera::Finalize(HdRenderParam* renderParam) {
-    static_cast<HdHiprRenderParam*>(renderParam)->setShutter(GetId(), false);
+    static_cast<HdHiprRenderParam*>(renderParam)->setShutter(GetId(), {});
     HdCamera::Finalize(renderParam);
 }
 

@@ -1,6 +1,7 @@
 /// @file camera.h
 /// HdHiprCamera: a scene camera. View, projection, apertures and clipping range reach the renderer as the
-/// matrices of the render pass state, which also applies the window policy; lens and exposure come from here.
+/// matrices of the render pass state, which also applies the window policy; lens,
+/// exposure, shutter and motion come from here.
 #pragma once
 
 #include "plugin/hdHipr/compat.h"
@@ -26,8 +27,15 @@ public:
     /// (UsdGeomCamera::ComputeLinearExposureScale).
     float exposure() const { return _exposure; }
 
+    /// From shutterOpen and shutterClose, in frames.
+    hipr::Shutter const& shutter() const { return _shutter; }
+    /// Where the camera is while the shutter is open; empty when it stands still.
+    std::vector<hipr::CameraKey> const& motion() const { return _motion; }
+
 private:
     hipr::Lens _lens;
+    hipr::Shutter _shutter;
+    std::vector<hipr::CameraKey> _motion;
     float _exposure = 1.f;
 };
 

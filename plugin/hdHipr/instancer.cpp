@@ -163,10 +163,6 @@ std::vector<std::vector<std::string>> combine(std::vector<std::vector<std::strin
 
 } // namespace
 
-bool HdHiprInstancer::placesInstances(TfToken const& primvar) {
-    return isPart(primvar);
-}
-
 void HdHiprInstancer::syncPrimvars(HdDirtyBits dirtyBits) {
     std::map<TfToken, VtValue> primvars;
     for (HdPrimvarDescriptor const& pv :
@@ -181,13 +177,30 @@ void HdHiprInstancer::syncPrimvars(HdDirtyBits dirtyBits) {
     _primvars = std::move(primvars);
 }
 
+bool HdHiprInstancer::placesInstances(TfToken const& primvar) {
+    return isPart(primvar);
+}
+
+std::vector<GfMatrix4d> HdHiprInstancer::nested(std::vector<GfMatrix4d> const& inner,
+                                                std::vector<GfMatrix4d> const& outer) {
+    std::vector<GfMatrix4d> all;
+    all.reserve(outer.size() * inner.size());
+    for (GfMatrix4d const& outerTransform : outer) {
+        for (GfMatrix4d const& transform : inner) {
+            all.push_back(transform * outerTransform);
+        }
+    }
+    return all;
+}
+
 std::vector<GfMatrix4d> HdHiprInstancer::localTransforms(VtIntArray const& indices,
-                                                         GfMatrix4d const& instancerTransform) const {
+                                                         GfMatrix4d const& instancerTransform,
+                                                         std::map<TfToken, VtValue> const& primvars) const {
     std::vector<GfMatrix4d> transforms(indices.size(), instancerTransform);
     for (PartName const& part : partNames) {
         for (const char* name : {part.name, part.newName}) {
-            const auto found = _primvars.find(TfToken(name));
-            if (found == _primvars.end() || found->second.IsEmpty()) {
+            const auto found = primvars.find(TfToken(name));
+            if (found == primvars.end() || found->second.IsEmpty()) {
                 continue;
             }
             bool complete = true;
@@ -253,7 +266,7 @@ std::vector<std::vector<std::string>> HdHiprInstancer::localCategories(VtIntArra
 HdHiprInstancer::Instances HdHiprInstancer::instances(SdfPath const& prototypeId) {
     ensureSynced();
     const VtIntArray indices = GetDelegate()->GetInstanceIndices(GetId(), prototypeId);
-    Instances local{localTransforms(indices, GetDelegate()->GetInstancerTransform(GetId())),
+    Instances local{localTransforms(indices, GetDelegate()->GetInstancerTransform(GetId()), _primvars),
                     localPrimvars(indices), localCategories(indices)};
     if (GetParentId().IsEmpty()) {
         return local;
@@ -267,12 +280,7 @@ HdHiprInstancer::Instances HdHiprInstancer::instances(SdfPath const& prototypeId
     }
     const Instances outer = static_cast<HdHiprInstancer*>(parent)->instances(GetId());
     Instances all;
-    all.transforms.reserve(outer.transforms.size() * local.transforms.size());
-    for (GfMatrix4d const& outerTransform : outer.transforms) {
-        for (GfMatrix4d const& transform : local.transforms) {
-            all.transforms.push_back(transform * outerTransform);
-        }
-    }
+    all.transforms = nested(local.transforms, outer.transforms);
     all.categories =
         combine(outer.categories, outer.transforms.size(), local.categories, local.transforms.size());
     for (hipr::Primvar& pv : local.primvars) {
@@ -302,13 +310,25 @@ bool LinkState::sync(HdSceneDelegate& delegate, SdfPath const& id, SdfPath const
 }
 
 hipr::InstancesDesc hdhipr::readInstances(HdSceneDelegate& delegate, SdfPath const& id,
-                                          SdfPath const& instancerId) {
+                                          SdfPath const& instancerId, bool sampled) {
     const GfMatrix4d own = delegate.GetTransform(id);
+    Samples<GfMatrix4d> ownSamples;
+    if (sampled) {
+        ownSamples = sampleTransform(delegate, id);
+    }
+    if (ownSamples.values.empty()) {
+        ownSamples = {{0.f}, {own}};
+    }
+    std::vector<HdHiprInstancer::Level> levels;
     hipr::InstancesDesc desc;
     if (instancerId.IsEmpty()) {
         desc.transforms.push_back(toGlmAffine(own));
     } else if (HdInstancer* instancer = delegate.GetRenderIndex().GetInstancer(instancerId)) {
-        HdHiprInstancer::Instances instances = static_cast<HdHiprInstancer*>(instancer)->instances(id);
+        auto* const placing = static_cast<HdHiprInstancer*>(instancer);
+        HdHiprInstancer::Instances instances = placing->instances(id);
+        if (sampled) {
+            levels = placing->sampleLevels(id);
+        }
         desc.transforms.reserve(instances.transforms.size());
         for (GfMatrix4d const& transform : instances.transforms) {
             desc.transforms.push_back(toGlmAffine(own * transform));
@@ -318,6 +338,16 @@ hipr::InstancesDesc hdhipr::readInstances(HdSceneDelegate& delegate, SdfPath con
     } else {
         warnOnce(id.GetString(),
                  "its instancer <" + instancerId.GetString() + "> does not exist; it is not drawn");
+        return desc;
+    }
+    desc.motion = instanceMotion(ownSamples, levels);
+    const bool steady =
+        std::all_of(desc.motion.transforms.begin(), desc.motion.transforms.end(),
+                    [&](auto const& transforms) { return transforms.size() == desc.transforms.size(); });
+    if (!steady) {
+        warnOnce(id.GetString(),
+                 "its instances are not the same while the shutter is open; they stand still");
+        desc.motion = {};
     }
     return desc;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "plugin/hdHipr/compat.h"
+#include "plugin/hdHipr/motion.h"
 #include "renderer/api/scene.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
@@ -26,13 +27,29 @@ public:
 
     /// Whether an instance primvar of this name is part of the instances' transforms.
     static bool placesInstances(TfToken const& primvar);
+    /// Every outer instance with every inner one.
+    static std::vector<GfMatrix4d> nested(std::vector<GfMatrix4d> const& inner,
+                                          std::vector<GfMatrix4d> const& outer);
+
+    /// Where this instancer, or one it is nested in, places instances while the shutter is open.
+    struct Level {
+        HdHiprInstancer const* instancer;
+        VtIntArray indices;
+        hdhipr::Samples<GfMatrix4d> own;
+        std::map<TfToken, hdhipr::Samples<VtValue>> parts;
+    };
+    /// Samples of all levels, this one first.
+    std::vector<Level> sampleLevels(SdfPath const& prototypeId);
+    /// Transforms at a time, as Instances has them, of levels from `level` outwards.
+    static std::vector<GfMatrix4d> transformsAt(std::vector<Level> const& levels, float time,
+                                                size_t level = 0);
 
 protected:
     void syncPrimvars(HdDirtyBits dirtyBits) override;
 
 private:
-    std::vector<GfMatrix4d> localTransforms(VtIntArray const& indices,
-                                            GfMatrix4d const& instancerTransform) const;
+    std::vector<GfMatrix4d> localTransforms(VtIntArray const& indices, GfMatrix4d const& instancerTransform,
+                                            std::map<TfToken, VtValue> const& primvars) const;
     std::vector<hipr::Primvar> localPrimvars(VtIntArray const& indices) const;
     std::vector<std::vector<std::string>> localCategories(VtIntArray const& indices) const;
 
@@ -54,9 +71,15 @@ private:
     bool _instancesLinked = false;
 };
 
+/// The motion of an rprim with an own transform, and of its instances if there are any levels.
+hipr::InstanceMotion instanceMotion(Samples<GfMatrix4d> const& own,
+                                    std::vector<HdHiprInstancer::Level> const& levels);
+
 /// Where an rprim stands: once, or as its instancer says. Without the instancer that it names it stands
 /// nowhere, which is told.
-hipr::InstancesDesc readInstances(HdSceneDelegate& delegate, SdfPath const& id, SdfPath const& instancerId);
+/// With `sampled` also where it is at other times.
+hipr::InstancesDesc readInstances(HdSceneDelegate& delegate, SdfPath const& id, SdfPath const& instancerId,
+                                  bool sampled);
 
 } // namespace hdhipr
 

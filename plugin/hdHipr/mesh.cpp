@@ -4,6 +4,7 @@
 
 #include "plugin/hdHipr/instancer.h"
 #include "plugin/hdHipr/messages.h"
+#include "plugin/hdHipr/motion.h"
 #include "plugin/hdHipr/primvars.h"
 #include "plugin/hdHipr/renderParam.h"
 #include "plugin/hdHipr/unsupported.h"
@@ -104,7 +105,7 @@ void HdHiprMesh::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdD
     }
     const Rebuild rebuild = std::max(syncTopology(delegate, bits, reprToken), syncPrimvars(delegate, bits));
     if (rebuild != Rebuild::None) {
-        sendGeometry(rebuild, param);
+        sendGeometry(*delegate, rebuild, param);
     }
     const bool relinked = _links.sync(*delegate, GetId(), GetInstancerId(), bits);
     if (bits & objectBits) {
@@ -112,11 +113,6 @@ void HdHiprMesh::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdD
     }
     if (relinked || (bits & instanceBits)) {
         sendInstances(delegate, param);
-    }
-    // Last: UsdImaging hands out the points once, and asking for samples of them counts.
-    const HdDirtyBits motionBits = instanceBits | HdChangeTracker::DirtyPoints;
-    if ((bits & motionBits) && param.shutterOpen()) {
-        warnOfMotion(*delegate, GetId(), HdTokens->points, GetInstancerId());
     }
     *dirtyBits = HdChangeTracker::Clean; // custom bits, too: AllDirty holds them
 }
@@ -211,6 +207,7 @@ void HdHiprMesh::syncComputedPrimvars(HdSceneDelegate* delegate, HdDirtyBits bit
         }
     }
     _computed = !names->empty();
+    _pointsComputed = std::find(names->begin(), names->end(), HdTokens->points) != names->end();
     if (dirty.empty()) {
         return;
     }
@@ -288,7 +285,7 @@ HdHiprMesh::Rebuild HdHiprMesh::setPrimvar(HdPrimvarDescriptor const& descriptor
     return descriptor.name == HdTokens->normals ? Rebuild::Points : Rebuild::All;
 }
 
-void HdHiprMesh::sendGeometry(Rebuild rebuild, HdHiprRenderParam& param) {
+void HdHiprMesh::sendGeometry(HdSceneDelegate& delegate, Rebuild rebuild, HdHiprRenderParam& param) {
     const bool hasNormals = std::any_of(_desc.primvars.begin(), _desc.primvars.end(),
                                         [](hipr::Primvar const& pv) { return HdTokens->normals == pv.name; });
     const bool faceted =
@@ -297,7 +294,26 @@ void HdHiprMesh::sendGeometry(Rebuild rebuild, HdHiprRenderParam& param) {
     _desc.flatNormals = _style.flat || (faceted && !hasNormals);
     const bool pointsOnly = rebuild == Rebuild::Points && _mesh && !_mesh->triangles.empty();
     _mesh = pointsOnly ? hipr::updatePoints(*_mesh, _desc, report) : hipr::buildTriangleMesh(_desc, report);
-    param.edit().setGeometry(_geometry, _mesh);
+    param.edit().setGeometry(_geometry, param.shutterOpen() ? meshWithMotion(delegate) : _mesh);
+}
+
+/// Samples are read after the points: UsdImaging hands those out once, and asking for samples counts.
+std::shared_ptr<const hipr::TriangleMesh> HdHiprMesh::meshWithMotion(HdSceneDelegate& delegate) const {
+    if (_pointsComputed) {
+        warnOnce(GetId().GetString(),
+                 "its points are computed (skinning), and computed motion is not blurred; "
+                 "while the shutter is open it stays as it is at the frame's time");
+        return _mesh;
+    }
+    const Samples<VtValue> points = samplePrimvar(delegate, GetId(), HdTokens->points);
+    hipr::MeshDesc desc = _desc; // whose other primvars no shape needs
+    const auto others = [](hipr::Primvar const& pv) { return HdTokens->normals != pv.name; };
+    desc.primvars.erase(std::remove_if(desc.primvars.begin(), desc.primvars.end(), others),
+                        desc.primvars.end());
+    return deforming(GetId(), _mesh, points, [&](VtValue const& value) {
+        desc.points = toVec3s(value);
+        return hipr::buildTriangleMesh(desc, [](hipr::Severity, std::string const&, std::string const&) {});
+    });
 }
 
 void HdHiprMesh::sendObject(HdSceneDelegate* delegate, HdHiprRenderParam& param) {
@@ -324,7 +340,8 @@ void HdHiprMesh::renderTagChanged(HdSceneDelegate* delegate, HdRenderParam* rend
 }
 
 void HdHiprMesh::sendInstances(HdSceneDelegate* delegate, HdHiprRenderParam& param) {
-    param.edit().setInstances(_object, readInstances(*delegate, GetId(), GetInstancerId()));
+    param.edit().setInstances(_object,
+                              readInstances(*delegate, GetId(), GetInstancerId(), param.shutterOpen()));
 }
 
 PXR_NAMESPACE_CLOSE_SCOPE

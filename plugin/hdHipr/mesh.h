@@ -44,7 +44,8 @@ private:
     Rebuild setPoints(VtValue const& value);
     void syncComputedPrimvars(HdSceneDelegate* delegate, HdDirtyBits bits, TfTokenVector* names,
                               Rebuild* rebuild);
-    void sendGeometry(Rebuild rebuild, HdHiprRenderParam& param);
+    void sendGeometry(HdSceneDelegate& delegate, Rebuild rebuild, HdHiprRenderParam& param);
+    std::shared_ptr<const hipr::TriangleMesh> meshWithMotion(HdSceneDelegate& delegate) const;
     void sendObject(HdSceneDelegate* delegate, HdHiprRenderParam& param);
     void sendInstances(HdSceneDelegate* delegate, HdHiprRenderParam& param);
 
@@ -55,7 +56,8 @@ private:
     hdhipr::DescriptorChoice _descriptorChoice;
     TfToken _reprToken; ///< the repr that `_style` is for
     hdhipr::MeshStyle _style;
-    bool _computed = false; ///< some primvars are computed
+    bool _computed = false;       ///< some primvars are computed
+    bool _pointsComputed = false; ///< the points are among them
     SdfPathVector _subsetMaterials;
     hdhipr::LinkState _links;
     std::shared_ptr<const hipr::TriangleMesh> _mesh;

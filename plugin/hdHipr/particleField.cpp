@@ -62,12 +62,16 @@ void HdHiprParticleField::Sync(HdSceneDelegate* delegate, HdRenderParam* renderP
     if (bits & objectBits) {
         sendObject(delegate, param);
     }
-    if (bits & instanceBits) {
-        param.edit().setInstances(_object, readInstances(*delegate, GetId(), GetInstancerId()));
-    }
     // Last: UsdImaging hands out values once, and asking for samples of them counts.
-    if ((bits & (instanceBits | valueBits)) && param.shutterOpen()) {
-        warnOfMotion(*delegate, GetId(), SplatTokens().positions, GetInstancerId());
+    if (bits & (instanceBits | valueBits)) {
+        hipr::InstancesDesc placed = readInstances(*delegate, GetId(), GetInstancerId(), param.shutterOpen());
+        if (param.shutterOpen()) {
+            warnOfMotion(*delegate, GetId(), SplatTokens().positions, placed.motion);
+        }
+        placed.motion = {};
+        if (bits & instanceBits) {
+            param.edit().setInstances(_object, std::move(placed));
+        }
     }
     *dirtyBits = HdChangeTracker::Clean;
 }

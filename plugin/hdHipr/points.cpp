@@ -109,6 +109,7 @@ void HdHiprPoints::place(std::vector<glm::vec3> const& points, std::vector<hipr:
                                        normals = take(primvars, HdTokens->normals, 3);
     _perPoint.clear();
     _placements.clear();
+    _placed.clear();
     const auto constant =
         std::stable_partition(primvars.begin(), primvars.end(), [](hipr::Primvar const& primvar) {
             return primvar.interpolation == hipr::Interpolation::Constant ||
@@ -128,6 +129,7 @@ void HdHiprPoints::place(std::vector<glm::vec3> const& points, std::vector<hipr:
             ++dropped;
             continue;
         }
+        _placed.push_back(uint32_t(i));
         _placements.push_back(placement(points[i], radius, normals ? valueOf(*normals, i) : nullptr));
         for (size_t p = 0; p < perPoint.size(); ++p) {
             float const* value = valueOf(perPoint[p], i);
@@ -148,8 +150,32 @@ void HdHiprPoints::place(std::vector<glm::vec3> const& points, std::vector<hipr:
     }
 }
 
-hipr::InstancesDesc HdHiprPoints::instances(HdSceneDelegate& delegate) {
-    const hipr::InstancesDesc placed = readInstances(delegate, GetId(), GetInstancerId());
+/// The points' own motion and that of what they are part of, together.
+hipr::InstanceMotion HdHiprPoints::motion(HdSceneDelegate& delegate, hipr::InstancesDesc const& placed) {
+    const Samples<VtValue> samples = samplePrimvar(delegate, GetId(), HdTokens->points);
+    hipr::InstanceMotion motion;
+    motion.times = placed.motion.times;
+    addTimes(samples, motion.times);
+    for (const float time : motion.times) {
+        const auto outer = placed.motion.times.empty() ? placed.transforms : at(placed.motion, time);
+        std::vector<glm::vec3> const points =
+            samples.values.empty() ? std::vector<glm::vec3>() : toVec3s(at(samples, time));
+        std::vector<glm::mat4x3>& transforms = motion.transforms.emplace_back();
+        for (glm::mat4x3 const& transform : outer) {
+            for (size_t i = 0; i < _placements.size(); ++i) {
+                glm::mat4 placement = _placements[i];
+                if (samples.moves() && _placed[i] < points.size()) {
+                    placement[3] = glm::vec4(points[_placed[i]], 1.f);
+                }
+                transforms.push_back(transform * placement);
+            }
+        }
+    }
+    return motion;
+}
+
+hipr::InstancesDesc HdHiprPoints::instances(HdSceneDelegate& delegate, bool sampled) {
+    const hipr::InstancesDesc placed = readInstances(delegate, GetId(), GetInstancerId(), sampled);
     const size_t points = _placements.size(), instances = placed.transforms.size();
     hipr::InstancesDesc desc;
     desc.transforms.reserve(points * instances);
@@ -162,6 +188,9 @@ hipr::InstancesDesc HdHiprPoints::instances(HdSceneDelegate& delegate) {
         if (!placed.categories.empty()) {
             desc.categories.insert(desc.categories.end(), points, placed.categories[i]);
         }
+    }
+    if (sampled) {
+        desc.motion = motion(delegate, placed);
     }
     for (hipr::Primvar const& primvar : _perPoint) {
         if (points > 0) {

@@ -86,13 +86,15 @@ void HdHiprRenderParam::removeLight(hipr::LightId id) {
     _edit.removeLight(id);
 }
 
-void HdHiprRenderParam::setShutter(SdfPath const& camera, bool open) {
+bool HdHiprRenderParam::setShutter(SdfPath const& camera, hipr::Shutter const& shutter) {
     std::lock_guard<std::mutex> lock(_mutex);
-    if (open) {
-        _openShutters.insert(camera);
-    } else {
-        _openShutters.erase(camera);
+    if (!shutter.blurs()) {
+        return _openShutters.erase(camera) > 0;
     }
+    const auto [entry, added] = _openShutters.try_emplace(camera, shutter);
+    const bool same = !added && entry->second == shutter;
+    entry->second = shutter;
+    return !same;
 }
 
 bool HdHiprRenderParam::shutterOpen() {

@@ -54,8 +54,9 @@ public:
     void removeLight(hipr::LightId id);
     bool hasDome();
 
+    /// Returns whether prims have to be sampled anew: the shutter opens or closes otherwise than before.
+    bool setShutter(SdfPath const& camera, hipr::Shutter const& shutter);
     /// Whether any camera has a shutter that opens.
-    void setShutter(SdfPath const& camera, bool open);
     bool shutterOpen();
 
     /// What the render pass draws. Objects outside of it become invisible.
@@ -79,7 +80,7 @@ private:
     std::unordered_map<SdfPath, hipr::MaterialId, SdfPath::Hash> _materials;
     std::unordered_map<hipr::ObjectId, hdhipr::ObjectState> _objects;
     std::set<hipr::LightId> _domes; ///< those that are switched on
-    std::set<SdfPath> _openShutters;
+    std::map<SdfPath, hipr::Shutter> _openShutters;
     SdfPathVector _rootPaths, _excludePaths;
     TfTokenVector _renderTags;
 };

@@ -16,8 +16,8 @@ using namespace hdhipr;
 
 namespace {
 
-/// Lens and exposure only where the host says which camera it looks through; a free camera may have clip
-/// planes.
+/// Lens, exposure and shutter only where the host says which camera it looks through; a free camera may have
+/// clip planes.
 hipr::CameraDesc cameraOf(HdRenderPassState const& state, GfMatrix4d const& crop) {
     hipr::CameraDesc desc;
     desc.worldToView = toGlm(state.GetWorldToViewMatrix());
@@ -25,6 +25,8 @@ hipr::CameraDesc cameraOf(HdRenderPassState const& state, GfMatrix4d const& crop
     if (auto const* camera = dynamic_cast<HdHiprCamera const*>(state.GetCamera())) {
         desc.lens = camera->lens();
         desc.exposure = camera->exposure();
+        desc.shutter = camera->shutter();
+        desc.motion = camera->motion();
     }
     for (GfVec4d const& plane : state.GetClipPlanes()) {
         desc.clipPlanes.emplace_back(plane[0], plane[1], plane[2], plane[3]);

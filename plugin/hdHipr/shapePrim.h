@@ -7,10 +7,11 @@
 
 #include "plugin/hdHipr/compat.h"
 #include "plugin/hdHipr/instancer.h"
+#include "plugin/hdHipr/motion.h"
 #include "plugin/hdHipr/primvars.h"
 #include "plugin/hdHipr/renderParam.h"
-#include "plugin/hdHipr/unsupported.h"
 #include "pxr/imaging/hd/tokens.h"
+#include "renderer/api/mesh.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
 
@@ -46,8 +47,9 @@ public:
         if (bits & HdChangeTracker::DirtyMaterialId) {
             this->updateMaterialId(delegate, delegate->GetMaterialId(this->GetId()));
         }
+        const bool sampled = param.shutterOpen();
         if (bits & shapeBits) {
-            param.edit().setGeometry(_geometry, readShape(*delegate));
+            param.edit().setGeometry(_geometry, shapeWithMotion(*delegate, sampled));
         }
         const bool relinked = _links.sync(*delegate, this->GetId(), this->GetInstancerId(), bits);
         if (bits & objectBits) {
@@ -55,11 +57,7 @@ public:
         }
         const HdDirtyBits placing = shapePlacesInstances() ? instanceBits | shapeBits : instanceBits;
         if (relinked || (bits & placing)) {
-            param.edit().setInstances(_object, instances(*delegate));
-        }
-        // Last: UsdImaging hands out the points once, and asking for samples of them counts.
-        if ((bits & (instanceBits | HdChangeTracker::DirtyPoints)) && param.shutterOpen()) {
-            warnOfMotion(*delegate, this->GetId(), HdTokens->points, this->GetInstancerId());
+            param.edit().setInstances(_object, instances(*delegate, sampled));
         }
         *dirtyBits = HdChangeTracker::Clean;
     }
@@ -67,9 +65,11 @@ public:
 protected:
     /// Reads all of the shape: Hydra drops what it has handed over.
     virtual std::shared_ptr<const hipr::TriangleMesh> readShape(HdSceneDelegate& delegate) = 0;
-    /// Where the geometry stands.
-    virtual hipr::InstancesDesc instances(HdSceneDelegate& delegate) {
-        return readInstances(delegate, this->GetId(), this->GetInstancerId());
+    /// The shape that was read last with other points; null where these do not shape it.
+    virtual std::shared_ptr<const hipr::TriangleMesh> shapeOf(VtValue const& points) = 0;
+    /// Where the geometry stands; with `sampled` also at other times.
+    virtual hipr::InstancesDesc instances(HdSceneDelegate& delegate, bool sampled) {
+        return readInstances(delegate, this->GetId(), this->GetInstancerId(), sampled);
     }
     /// Whether instances() depends on the shape.
     virtual bool shapePlacesInstances() const { return false; }
@@ -125,6 +125,16 @@ protected:
     }
 
 private:
+    /// Samples come last: UsdImaging hands out the points once, and asking for samples of them counts.
+    std::shared_ptr<const hipr::TriangleMesh> shapeWithMotion(HdSceneDelegate& delegate, bool sampled) {
+        const std::shared_ptr<const hipr::TriangleMesh> shape = readShape(delegate);
+        if (!sampled) {
+            return shape;
+        }
+        return deforming(this->GetId(), shape, samplePrimvar(delegate, this->GetId(), HdTokens->points),
+                         [this](VtValue const& points) { return shapeOf(points); });
+    }
+
     static constexpr HdDirtyBits objectBits =
         HdChangeTracker::DirtyVisibility | HdChangeTracker::DirtyMaterialId | HdChangeTracker::DirtyPrimID |
         HdChangeTracker::DirtyRenderTag | HdChangeTracker::DirtyCategories;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plugin/hdHipr/compat.h"
+#include "renderer/api/motion.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
 
@@ -11,10 +12,10 @@ namespace hdhipr {
 /// Warns of a cull style that would leave faces out. `subject`: the prim that has it; empty for the view.
 void warnOfCullStyle(std::string const& subject, HdCullStyle style);
 
-/// Warns when a prim's transform or its `points`, or its instancer's transform or the places of its instances
-/// move within the shutter interval. Reads samples of all: call it only while a shutter is open.
+/// Warns when splats move while the shutter is open, with `motion` or by their `points`. Reads samples: call
+/// it only while a shutter is open.
 void warnOfMotion(HdSceneDelegate& delegate, SdfPath const& id, TfToken const& points,
-                  SdfPath const& instancerId);
+                  hipr::InstanceMotion const& motion);
 
 } // namespace hdhipr
 

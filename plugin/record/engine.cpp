@@ -238,6 +238,7 @@ void Engine::setFrame(double frame) {
 }
 
 void Engine::setCamera(const SdfPath& camera) {
+    _impl->scene->SetCameraForSampling(camera);
     _impl->task->setCamera(camera);
 }
 

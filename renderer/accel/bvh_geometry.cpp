@@ -12,11 +12,14 @@ namespace {
 constexpr float WORN_OUT = 1.4f;
 
 std::vector<gpu::BvhTriangle> leafTriangles(const GeometryView& view, const std::vector<uint32_t>& order) {
-    std::vector<gpu::BvhTriangle> out(order.size());
-    tbb::parallel_for(tbb::blocked_range<size_t>(0, order.size(), 32768), [&](const auto& range) {
+    static_assert(sizeof(gpu::BvhTriangle) == 40); // BVH_TRIANGLE_BYTES
+    std::vector<gpu::BvhTriangle> out(order.size() * view.keys);
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, out.size(), 32768), [&](const auto& range) {
         for (size_t i = range.begin(); i < range.end(); ++i) {
-            const glm::uvec3 t = view.triangles[order[i]];
-            out[i] = {view.positions[t.x], view.positions[t.y], view.positions[t.z], order[i]};
+            const uint32_t primitive = order[i % order.size()];
+            const glm::vec3* positions = view.positions + i / order.size() * view.vertexCount;
+            const glm::uvec3 t = view.triangles[primitive];
+            out[i] = {positions[t.x], positions[t.y], positions[t.z], primitive};
         }
     });
     return out;
@@ -58,7 +61,7 @@ void BvhGeometry::send(Device& device) {
     const uint64_t nodeBytes = _bvh.nodes.size() * sizeof(gpu::BvhNode);
     const uint64_t triangleBytes = _triangles.size() * sizeof(gpu::BvhTriangle);
     _nodeCount = _bvh.nodes.size();
-    _triangleCount = uint32_t(_triangles.size());
+    _triangleCount = uint32_t(_triangles.size()) / _view.keys;
     if (_triangles.empty()) {
         _buffer = {};
     } else {

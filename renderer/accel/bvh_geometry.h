@@ -5,16 +5,17 @@
 #include <vector>
 
 #include "renderer/accel/bvh_builder.h"
+#include "renderer/accel/instance_table.h"
 #include "renderer/accel/traversal.h"
 
 namespace hipr {
 
-/// A geometry's tree: nodes, then triangles, in one buffer.
+/// A geometry's tree: nodes, then triangles, those of the next key behind those of one, in one buffer.
 class BvhGeometry {
 public:
     void setView(const GeometryView& view);
     bool changed() const { return _changed; }
-    const Bounds& bounds() const { return _bounds; }
+    SlotShape shape() const { return {_bounds, _view.keys, _triangleCount}; }
 
     /// Gets the tree back when it may be refitted.
     void fetch(Device& device);
@@ -34,7 +35,7 @@ private:
     Buffer _buffer;
     Bounds _bounds;
     uint64_t _nodeCount = 0;
-    uint32_t _triangleCount = 0; ///< in the buffer
+    uint32_t _triangleCount = 0; ///< in the buffer, of each key
     float _builtCost = 0.0f;     ///< when the tree was last built
     bool _changed = false;
     bool _sameTopology = false; ///< as what is in the buffer

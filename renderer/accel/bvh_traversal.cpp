@@ -34,8 +34,10 @@ public:
         _geometries[slot]->setView(*view);
     }
 
-    void setInstances(const std::vector<gpu::InstanceRecord>& instances) override {
-        _records = instances;
+    void setInstances(const InstanceView& instances) override {
+        _records = instances.records;
+        _keys = instances.keys;
+        _keysAddress = instances.keysAddress;
         _instancesChanged = true;
     }
 
@@ -64,9 +66,9 @@ private:
     }
 
     void buildTop() {
-        InstanceTable table = makeInstanceTable(_records, [this](uint32_t slot) {
+        InstanceTable table = makeInstanceTable({_records, _keys}, [this](uint32_t slot) {
             const BvhGeometry* g = geometry(slot);
-            return g ? g->bounds() : Bounds{};
+            return g ? g->shape() : SlotShape{};
         });
         std::vector<Bounds> boxes;
         std::vector<uint32_t> instances; // with a mask
@@ -88,12 +90,14 @@ private:
             pointAtInstance(n.child0);
             pointAtInstance(n.child1);
         }
-        _instances.send(_device, table, top.nodes);
+        _instances.send(_device, table, top.nodes, _keysAddress);
     }
 
     Device& _device;
     std::vector<std::unique_ptr<BvhGeometry>> _geometries; ///< by slot; null: free
     std::vector<gpu::InstanceRecord> _records;
+    std::vector<glm::mat4x3> _keys; ///< of moving instances
+    VkDeviceAddress _keysAddress = 0;
     DeviceInstances _instances;
     bool _instancesChanged = true;
 };

@@ -2,8 +2,8 @@
 
 namespace hipr {
 
-void DeviceInstances::send(Device& device, const InstanceTable& table,
-                           const std::vector<gpu::BvhNode>& nodes) {
+void DeviceInstances::send(Device& device, const InstanceTable& table, const std::vector<gpu::BvhNode>& nodes,
+                           VkDeviceAddress keys) {
     auto put = [&](Buffer& buffer, const void* data, uint64_t bytes) {
         if (buffer.bytes() < bytes || buffer.bytes() > 4 * bytes + 4096) {
             buffer = {};
@@ -13,7 +13,7 @@ void DeviceInstances::send(Device& device, const InstanceTable& table,
     };
     put(_nodes, nodes.data(), nodes.size() * sizeof(gpu::BvhNode));
     put(_instances, table.records.data(), table.records.size() * sizeof(gpu::BvhInstance));
-    const gpu::BvhScene scene{nodes.empty() ? 0 : _nodes.address(), _instances.address(), table.extent,
+    const gpu::BvhScene scene{nodes.empty() ? 0 : _nodes.address(), _instances.address(), keys, table.extent,
                               uint32_t(table.records.size())};
     put(_scene, &scene, sizeof(scene));
 }

@@ -10,7 +10,9 @@ namespace hipr {
 class DeviceInstances {
 public:
     /// `nodes`: the tree over the instances; empty when the traversal has its own.
-    void send(Device& device, const InstanceTable& table, const std::vector<gpu::BvhNode>& nodes);
+    /// `keys`: address of the table's keys.
+    void send(Device& device, const InstanceTable& table, const std::vector<gpu::BvhNode>& nodes,
+              VkDeviceAddress keys);
     /// Of the gpu::BvhScene; 0 before the first send().
     VkDeviceAddress address() const { return _scene.address(); }
 

@@ -72,6 +72,7 @@ struct Query {
     bool enter(uint32_t index);
     void prepare();
     bool consider(uint32_t primitive, float proposed);
+    glm::vec3 cornerAt(const GeometryView& view, uint32_t vertex) const;
     bool found() const { return best.instance != gpu::NO_INDEX; }
     /// Start of Embree's interval; it does not take negative ones.
     float start() const { return std::max(0.0f, ray.tMin - slack); }
@@ -85,8 +86,9 @@ bool Query::enter(uint32_t index) {
     const gpu::BvhInstance& record = scene->table().records[index];
     if (!(record.mask & mask)) return false;
     instance = index;
-    origin = gpu::mapPoint(record.worldToObject, ray.origin);
-    direction = gpu::mapDirection(record.worldToObject, ray.direction);
+    const glm::mat4x3 toObject = worldToObject(record, scene->table().keys.data(), ray.time);
+    origin = gpu::mapPoint(toObject, ray.origin);
+    direction = gpu::mapDirection(toObject, ray.direction);
     return true;
 }
 
@@ -100,13 +102,21 @@ void Query::prepare() {
     box = gpu::boxRay(origin, direction, record.extent);
 }
 
+/// Where a vertex is at the time of the ray.
+glm::vec3 Query::cornerAt(const GeometryView& view, uint32_t vertex) const {
+    if (view.keys == 1) return view.positions[vertex];
+    const gpu::KeyTime at = gpu::keyTime(ray.time, view.keys);
+    const glm::vec3* key = view.positions + at.first * size_t(view.vertexCount) + vertex;
+    return gpu::mixKeys(key[0], key[view.vertexCount], at.weight);
+}
+
 /// Tests one triangle of the current instance; true when it is the best hit so far. `proposed` is Embree's
 /// distance.
 bool Query::consider(uint32_t primitive, float proposed) {
     prepare();
     const GeometryView& g = scene->geometryOf(instance).view;
     const glm::uvec3 i = g.triangles[primitive];
-    const glm::vec3 &a = g.positions[i.x], &b = g.positions[i.y], &c = g.positions[i.z];
+    const glm::vec3 a = cornerAt(g, i.x), b = cornerAt(g, i.y), c = cornerAt(g, i.z);
     float t, u, v;
     if (!gpu::canonicalHit(triangleRay, box, a, b, c, entry, exit, t, u, v)) {
         turnedDown = std::min(turnedDown, proposed);
@@ -119,8 +129,8 @@ bool Query::consider(uint32_t primitive, float proposed) {
     return true;
 }
 
-RTCRay embreeRay(const glm::vec3& o, const glm::vec3& d, float tMin, float tMax) {
-    return {o.x, o.y, o.z, tMin, d.x, d.y, d.z, 0.0f, tMax, ~0u, 0, 0};
+RTCRay embreeRay(const glm::vec3& o, const glm::vec3& d, float tMin, float tMax, float time) {
+    return {o.x, o.y, o.z, tMin, d.x, d.y, d.z, time, tMax, ~0u, 0, 0};
 }
 
 // Callbacks see packets of one, because only rtcIntersect1 and rtcOccluded1 are used.
@@ -153,7 +163,7 @@ void filterOccluded(const RTCFilterFunctionNArguments* args) {
 void intersectOne(Query& q, uint32_t instance, float& tFar) {
     if (!q.enter(instance)) return;
     RTCRayHit inner;
-    inner.ray = embreeRay(q.origin, q.direction, q.start(), tFar);
+    inner.ray = embreeRay(q.origin, q.direction, q.start(), tFar, q.ray.time);
     inner.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(q.scene->geometryOf(instance).scene, &q.context, &inner);
     tFar = inner.ray.tfar;
@@ -161,7 +171,7 @@ void intersectOne(Query& q, uint32_t instance, float& tFar) {
 
 void occludedOne(Query& q, uint32_t instance, float& tFar) {
     if (!q.enter(instance)) return;
-    RTCRay inner = embreeRay(q.origin, q.direction, q.start(), tFar);
+    RTCRay inner = embreeRay(q.origin, q.direction, q.start(), tFar, q.ray.time);
     rtcOccluded1(q.scene->geometryOf(instance).scene, &q.context, &inner);
     tFar = inner.tfar;
 }
@@ -181,7 +191,7 @@ void occludedInstance(const RTCOccludedFunctionNArguments* args) {
 /// Walks the whole scene; the top level only when there is something to choose from.
 void intersectAll(Query& q) {
     RTCRayHit outer;
-    outer.ray = embreeRay(q.ray.origin, q.ray.direction, q.start(), q.loosened(q.ray.tMax));
+    outer.ray = embreeRay(q.ray.origin, q.ray.direction, q.start(), q.loosened(q.ray.tMax), q.ray.time);
     outer.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     if (q.scene->table().records.size() == 1)
         intersectOne(q, 0, outer.ray.tfar);
@@ -190,15 +200,15 @@ void intersectAll(Query& q) {
 }
 
 void occludedAll(Query& q) {
-    RTCRay outer = embreeRay(q.ray.origin, q.ray.direction, q.start(), q.loosened(q.ray.tMax));
+    RTCRay outer = embreeRay(q.ray.origin, q.ray.direction, q.start(), q.loosened(q.ray.tMax), q.ray.time);
     if (q.scene->table().records.size() == 1)
         occludedOne(q, 0, outer.tfar);
     else
         rtcOccluded1(q.scene->top(), &q.context, &outer);
 }
 
-RTCPointQuery around(const glm::vec3& p, float radius) {
-    return {p.x, p.y, p.z, 0.0f, radius};
+RTCPointQuery around(const glm::vec3& p, float radius, float time) {
+    return {p.x, p.y, p.z, time, radius};
 }
 
 bool nearTriangle(RTCPointQueryFunctionArguments* args) {
@@ -219,7 +229,7 @@ bool nearInstance(RTCPointQueryFunctionArguments* args) {
     const glm::vec3& origin = q.origin;
     const float radius =
         NEIGHBOURHOOD * gpu::rayAllowance(origin, q.scene->table().records[args->primID].extent);
-    RTCPointQuery point = around(q.origin + n.t * q.direction, radius);
+    RTCPointQuery point = around(q.origin + n.t * q.direction, radius, q.ray.time);
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     rtcPointQuery(q.scene->geometryOf(args->primID).scene, &point, &context, nearTriangle, &q);
@@ -229,7 +239,7 @@ bool nearInstance(RTCPointQueryFunctionArguments* args) {
 /// Considers every triangle around distance t.
 void considerAround(Query& q, float t) {
     const float radius = NEIGHBOURHOOD * gpu::rayAllowance(q.ray.origin, q.scene->table().extent);
-    RTCPointQuery point = around(q.ray.origin + t * q.ray.direction, radius);
+    RTCPointQuery point = around(q.ray.origin + t * q.ray.direction, radius, q.ray.time);
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     Neighbourhood n{&q, t};

@@ -80,8 +80,9 @@ void EmbreeScene::setGeometry(uint32_t slot, const GeometryView* view) {
     g->changed = true;
 }
 
-void EmbreeScene::setInstances(const std::vector<gpu::InstanceRecord>& instances) {
-    _instances = instances;
+void EmbreeScene::setInstances(const InstanceView& instances) {
+    _instances = instances.records;
+    _keys = instances.keys;
     _instancesChanged = true;
 }
 
@@ -95,8 +96,11 @@ void EmbreeScene::buildGeometry(EmbreeGeometry& g) {
     g.scene = rtcNewScene(_device);
     rtcSetSceneFlags(g.scene, RTC_SCENE_FLAG_ROBUST);
     const RTCGeometry triangles = rtcNewGeometry(_device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(triangles, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, g.view.positions, 0,
-                               sizeof(glm::vec3), g.view.vertexCount);
+    rtcSetGeometryTimeStepCount(triangles, g.view.keys);
+    for (uint32_t key = 0; key < g.view.keys; ++key)
+        rtcSetSharedGeometryBuffer(triangles, RTC_BUFFER_TYPE_VERTEX, key, RTC_FORMAT_FLOAT3,
+                                   g.view.positions + key * size_t(g.view.vertexCount), 0, sizeof(glm::vec3),
+                                   g.view.vertexCount);
     rtcSetSharedGeometryBuffer(triangles, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, g.view.triangles, 0,
                                sizeof(glm::uvec3), g.view.triangleCount);
     rtcSetGeometryUserData(triangles, &g);
@@ -109,8 +113,9 @@ void EmbreeScene::buildGeometry(EmbreeGeometry& g) {
 }
 
 void EmbreeScene::buildTop() {
-    _table = makeInstanceTable(_instances, [this](uint32_t slot) {
-        return slot < _geometries.size() && _geometries[slot] ? _geometries[slot]->bounds : Bounds{};
+    _table = makeInstanceTable({_instances, _keys}, [this](uint32_t slot) {
+        const EmbreeGeometry* g = slot < _geometries.size() ? _geometries[slot].get() : nullptr;
+        return g ? SlotShape{g->bounds, g->view.keys, g->view.triangleCount} : SlotShape{};
     });
     _geometryOf.assign(_instances.size(), nullptr);
     for (size_t i = 0; i < _instances.size(); ++i)

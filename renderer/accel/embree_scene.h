@@ -38,7 +38,7 @@ public:
     EmbreeScene& operator=(const EmbreeScene&) = delete;
 
     void setGeometry(uint32_t slot, const GeometryView* view);
-    void setInstances(const std::vector<gpu::InstanceRecord>& instances);
+    void setInstances(const InstanceView& instances);
     /// Throws std::runtime_error with Embree's words when it runs out of memory.
     void commit();
 
@@ -59,6 +59,7 @@ private:
     RTCGeometry _instanceGeometry = nullptr;
     std::vector<std::unique_ptr<EmbreeGeometry>> _geometries; ///< by slot; null: free
     std::vector<gpu::InstanceRecord> _instances;
+    std::vector<glm::mat4x3> _keys; ///< of moving instances
     InstanceTable _table;
     std::vector<const EmbreeGeometry*> _geometryOf; ///< by instance
     bool _instancesChanged = true;

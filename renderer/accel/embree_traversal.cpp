@@ -13,9 +13,7 @@ public:
     EmbreeTraversal() : _scene(embreeCallbacks()) {}
 
     void setGeometry(uint32_t slot, const GeometryView* view) override { _scene.setGeometry(slot, view); }
-    void setInstances(const std::vector<gpu::InstanceRecord>& instances) override {
-        _scene.setInstances(instances);
-    }
+    void setInstances(const InstanceView& instances) override { _scene.setInstances(instances); }
     void commit() override { _scene.commit(); }
     bool onHost() const override { return true; }
     uint64_t hostBytes() const override { return _scene.bytes(); }

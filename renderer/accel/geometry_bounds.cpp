@@ -13,8 +13,9 @@ constexpr size_t GRAIN = 32768;
 
 Bounds triangleBounds(const GeometryView& view, uint32_t triangle) {
     Bounds b;
-    for (int k = 0; k < 3; ++k)
-        b.add(view.positions[view.triangles[triangle][k]]);
+    for (uint32_t key = 0; key < view.keys; ++key)
+        for (int k = 0; k < 3; ++k)
+            b.add(view.positions[key * size_t(view.vertexCount) + view.triangles[triangle][k]]);
     return b;
 }
 

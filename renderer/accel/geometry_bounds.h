@@ -1,5 +1,5 @@
 /// @file geometry_bounds.h
-/// Boxes of geometries and their triangles, object space.
+/// Boxes of geometries and their triangles at all times of the shutter, object space.
 #pragma once
 
 #include <vector>

@@ -24,8 +24,9 @@ public:
         _instancesChanged = true; // boxes of instances follow their geometry
     }
 
-    void setInstances(const std::vector<gpu::InstanceRecord>& instances) override {
-        _records = instances;
+    void setInstances(const InstanceView& instances) override {
+        _records = instances.records;
+        _keys = instances.keys;
         _instancesChanged = true;
     }
 
@@ -76,9 +77,9 @@ private:
     }
 
     void buildTop() {
-        _table = makeInstanceTable(_records, [this](uint32_t slot) {
+        _table = makeInstanceTable({_records, _keys}, [this](uint32_t slot) {
             const HostGeometry* g = geometry(slot);
-            return g ? g->tree.bounds() : Bounds{};
+            return g ? SlotShape{g->tree.bounds(), g->view.keys, g->view.triangleCount} : SlotShape{};
         });
         std::vector<Bounds> boxes;
         std::vector<uint32_t> instances; // with a mask
@@ -90,7 +91,8 @@ private:
             instances.push_back(i);
         }
         _top.build(boxes, instances);
-        _scene = {_table.records.data(), uint32_t(_table.records.size()), _table.extent, _top.units()};
+        _scene = {_table.records.data(), uint32_t(_table.records.size()), _table.extent, _top.units(),
+                  _table.keys.data()};
     }
 
     [[noreturn]] static void recordingIsWrong() {
@@ -101,6 +103,7 @@ private:
     const WideWalk& _walk = *wideWalks().front();
     std::vector<std::unique_ptr<HostGeometry>> _geometries; ///< by slot; null: free
     std::vector<gpu::InstanceRecord> _records;
+    std::vector<glm::mat4x3> _keys; ///< of moving instances
     InstanceTable _table;
     WideTree _top;
     WideScene _scene{};

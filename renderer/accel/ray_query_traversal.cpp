@@ -46,8 +46,10 @@ public:
         _instancesChanged = true; // boxes of instances follow their geometry
     }
 
-    void setInstances(const std::vector<gpu::InstanceRecord>& instances) override {
-        _records = instances;
+    bool knowsTime() const override { return false; } // Vulkan has no motion but in vendors' extensions
+
+    void setInstances(const InstanceView& instances) override {
+        _records = instances.records;
         _instancesChanged = true;
     }
 
@@ -83,9 +85,9 @@ private:
         if (_records.size() >= 1u << 24)
             throw std::runtime_error(std::to_string(_records.size()) +
                                      " instances are too many for ray query");
-        const InstanceTable table = makeInstanceTable(_records, [this](uint32_t slot) {
+        const InstanceTable table = makeInstanceTable({_records, {}}, [this](uint32_t slot) {
             const RayQueryGeometry* g = geometry(slot);
-            return g ? g->bounds : Bounds{};
+            return g ? SlotShape{g->bounds} : SlotShape{};
         });
         std::vector<VkAccelerationStructureInstanceKHR> instances(_records.size());
         for (size_t i = 0; i < _records.size(); ++i) {
@@ -98,7 +100,7 @@ private:
         buildStructures(_device, {&_top});
         _nearest.setTlas(_top.handle());
         _occluded.setTlas(_top.handle());
-        _instances.send(_device, table, {});
+        _instances.send(_device, table, {}, 0);
     }
 
     Device& _device;

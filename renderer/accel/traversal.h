@@ -22,6 +22,14 @@ struct GeometryView {
     uint32_t triangleCount;
     VkDeviceAddress positionsAddress, trianglesAddress;
     bool sameTopology;          ///< only positions differ from the geometry that was in this slot: a refit will do
+    uint32_t keys = 1;          ///< of `positions`, one behind the other: GeometryRecord::keys
+};
+
+/// All instances, in InstanceRecord order, and the keys of those that move.
+struct InstanceView {
+    const std::vector<gpu::InstanceRecord>& records;
+    const std::vector<glm::mat4x3>& keys; ///< see InstanceRecord::firstKey
+    VkDeviceAddress keysAddress = 0;
 };
 
 /// A queue of rays. Addresses for device traversals, pointers for host ones (null unless Device::hostMemory()).
@@ -39,8 +47,11 @@ public:
 
     /// Puts a geometry into a slot (the index of its GeometryRecord), or frees the slot when `view` is null.
     virtual void setGeometry(uint32_t slot, const GeometryView* view) = 0;
-    /// All instances, in InstanceRecord order. Geometry slots that hold nothing are skipped.
-    virtual void setInstances(const std::vector<gpu::InstanceRecord>& instances) = 0;
+    /// Whether it knows of the times of rays. One that does not must not be given keys.
+    virtual bool knowsTime() const { return true; }
+
+    /// All instances. Geometry slots that hold nothing are skipped.
+    virtual void setInstances(const InstanceView& instances) = 0;
     /// Builds what changed since the last commit (blocking). Builds of several geometries run in parallel.
     virtual void commit() = 0;
 

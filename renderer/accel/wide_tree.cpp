@@ -1,5 +1,6 @@
 #include "renderer/accel/wide_tree.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <stdexcept>
@@ -41,16 +42,19 @@ WideNode emptyNode() {
     return node;
 }
 
-/// Copies corners of the leaf's triangles; their box.
-Bounds fillLeaf(WideLeaf& leaf, const GeometryView& view, uint32_t count) {
+/// Copies corners of a leaf's triangles, for all keys; their box.
+Bounds fillLeaf(WideLeaf* leaf, const GeometryView& view, uint32_t count) {
     Bounds box;
-    for (uint32_t lane = 0; lane < count; ++lane) {
-        const glm::uvec3 t = view.triangles[leaf.primitive[lane]];
-        for (int k = 0; k < 3; ++k) {
-            const glm::vec3& p = view.positions[t[k]];
-            box.add(p);
-            for (int axis = 0; axis < 3; ++axis)
-                leaf.corner[k][axis][lane] = p[axis];
+    for (uint32_t key = 0; key < view.keys; ++key) {
+        const glm::vec3* positions = view.positions + key * size_t(view.vertexCount);
+        for (uint32_t lane = 0; lane < count; ++lane) {
+            const glm::uvec3 t = view.triangles[leaf[key].primitive[lane]];
+            for (int k = 0; k < 3; ++k) {
+                const glm::vec3& p = positions[t[k]];
+                box.add(p);
+                for (int axis = 0; axis < 3; ++axis)
+                    leaf[key].corner[k][axis][lane] = p[axis];
+            }
         }
     }
     return box;
@@ -172,7 +176,7 @@ struct Refit {
     }
     Bounds leaf(uint32_t index) const {
         WideLeaf& l = leafAt(units, index);
-        return fillLeaf(l, view, trianglesOf(l));
+        return fillLeaf(&l, view, trianglesOf(l));
     }
 };
 
@@ -195,15 +199,16 @@ void WideTree::build(const GeometryView& view) {
     options.maxLeaf = options.block = WideLeaf::TRIANGLES;
     const Bvh bvh = buildBvh(triangleBoxes(view), options);
     _bounds = bvh.bounds;
-    _units.reserve(bvh.nodes.size() * (LEAF_UNITS + 3));
+    _keys = view.keys;
+    _units.reserve(bvh.nodes.size() * (_keys * LEAF_UNITS + 3));
     auto makeLeaf = [&](uint32_t first, uint32_t count) {
         const uint32_t index = uint32_t(_units.size());
-        _units.resize(_units.size() + LEAF_UNITS);
+        _units.resize(_units.size() + _keys * LEAF_UNITS);
         WideLeaf leaf = emptyLeaf();
         for (uint32_t i = 0; i < count; ++i)
             leaf.primitive[i] = bvh.order[first + i];
-        fillLeaf(leaf, view, count);
-        leafAt(_units, index) = leaf;
+        std::fill_n(&leafAt(_units, index), _keys, leaf);
+        fillLeaf(&leafAt(_units, index), view, count);
         return index | WIDE_LEAF;
     };
     double area = 0.0;
@@ -225,6 +230,7 @@ void WideTree::build(const std::vector<Bounds>& boxes, const std::vector<uint32_
 
 bool WideTree::refit(const GeometryView& view) {
     if (_units.empty()) return view.triangleCount == 0;
+    if (view.keys != _keys) return false;
     double area = 0.0;
     _bounds = Refit{_units, view}.node(0, 0, area);
     return relative(area, _bounds) <= WORN_OUT * _builtArea;

@@ -29,7 +29,8 @@ struct alignas(32) WideNode {
     uint32_t child[WIDE_CHILDREN];
 };
 
-/// Up to four triangles. Lanes without one have corners that are not numbers, which no ray hits.
+/// Up to four triangles. Those of a mesh that deforms have one of these a key, one behind the other. Lanes
+/// without one have corners that are not numbers, which no ray hits.
 struct alignas(32) WideLeaf {
     static constexpr uint32_t TRIANGLES = 4;
     float corner[3][3][TRIANGLES]; ///< corner, axis, triangle
@@ -56,6 +57,7 @@ public:
 private:
     std::vector<WideUnit> _units;
     Bounds _bounds;
+    uint32_t _keys = 1;      ///< of the mesh
     double _builtArea = 0.0; ///< of all nodes' children, relative to the root's, when last built
 };
 

@@ -2,6 +2,7 @@
 /// Canonical rays through wide trees on the host.
 #pragma once
 
+#include "renderer/accel/instance_table.h"
 #include "renderer/accel/wide_tree.h"
 #include "shaders/shared/scene.h"
 
@@ -10,8 +11,9 @@ namespace hipr {
 struct WideScene {
     const gpu::BvhInstance* instances; ///< `nodes` is the host address of the geometry's WideUnit array
     uint32_t instanceCount;
-    float extent;        ///< largest |coordinate| of all instance boxes
-    const WideUnit* top; ///< leaves are instances; null: none
+    float extent;                      ///< largest |coordinate| of all instance boxes
+    const WideUnit* top;               ///< leaves are instances; null: none
+    const glm::mat4x3* keys = nullptr; ///< of moving instances
 };
 
 /// One compilation of the walk.

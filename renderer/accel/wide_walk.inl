@@ -264,6 +264,54 @@ template <bool ANY> HIPR_HOT bool testLeaf(Walk& w, const LeafRay& r, const Wide
     return false;
 }
 
+/// A ray in the space of an instance.
+struct InstanceRay {
+    LeafRay leaf;
+    NodeRay node;
+};
+
+HIPR_HOT void setInstanceRay(InstanceRay& out, const Walk& w, uint32_t index,
+                             const glm::mat4x3& worldToObject, float entry, float exit) {
+    const glm::vec3 origin = gpu::mapPoint(worldToObject, w.ray.origin);
+    const glm::vec3 direction = gpu::mapDirection(worldToObject, w.ray.direction);
+    const gpu::BoxRay box = gpu::boxRay(origin, direction, w.scene.instances[index].extent);
+    setLeafRay(out.leaf, gpu::triangleRay(origin, direction), box, entry, exit, index);
+    setNodeRay(out.node, box, w.ray.tMin);
+}
+
+/// gpu::mixKeys for the corners of a leaf.
+HIPR_HOT void mixLeaves(WideLeaf& out, const WideLeaf& from, const WideLeaf& to, float weight) {
+    const F4 share = all4(weight);
+    for (int corner = 0; corner < 3; ++corner)
+        for (int axis = 0; axis < 3; ++axis) {
+            const F4& a = reinterpret_cast<const F4&>(from.corner[corner][axis]);
+            const F4& b = reinterpret_cast<const F4&>(to.corner[corner][axis]);
+            const F4 mixed = a + (b - a) * share;
+            reinterpret_cast<F4&>(out.corner[corner][axis]) = most(least(mixed, most(a, b)), least(a, b));
+        }
+    std::memcpy(out.primitive, from.primitive, sizeof(out.primitive));
+}
+
+/// Of an instance that moves or deforms while the shutter is open. True when any hit will do and there is
+/// one.
+template <bool ANY>
+__attribute__((noinline)) bool walkMoving(Walk& w, uint32_t index, float entry, float exit) {
+    const gpu::BvhInstance& record = w.scene.instances[index];
+    InstanceRay ray;
+    setInstanceRay(ray, w, index, worldToObject(record, w.scene.keys, w.ray.time), entry, exit);
+    const auto* tree = reinterpret_cast<const WideUnit*>(record.nodes);
+    const gpu::KeyTime at =
+        record.geometryKeys > 1 ? gpu::keyTime(w.ray.time, record.geometryKeys) : gpu::KeyTime{0, 0.0f};
+    walkTree<Leaves::Triangles>(tree, ray.node, w.best.t, [&](uint32_t child) {
+        const auto* leaf = reinterpret_cast<const WideLeaf*>(tree + child) + at.first;
+        if (record.geometryKeys == 1) return testLeaf<ANY>(w, ray.leaf, *leaf);
+        WideLeaf now;
+        mixLeaves(now, leaf[0], leaf[1], at.weight);
+        return testLeaf<ANY>(w, ray.leaf, now);
+    });
+    return ANY && w.best.instance != gpu::NO_INDEX;
+}
+
 /// True when any hit will do and there is one.
 template <bool ANY> HIPR_HOT bool walkInstance(Walk& w, const gpu::BoxRay& worldBox, uint32_t index) {
     const gpu::BvhInstance& record = w.scene.instances[index];
@@ -271,16 +319,12 @@ template <bool ANY> HIPR_HOT bool walkInstance(Walk& w, const gpu::BoxRay& world
     float entry, exit;
     gpu::boxInterval(worldBox, record.lo, record.hi, entry, exit);
     if (!(std::max(entry, w.ray.tMin) <= std::min(exit, w.best.t))) return false;
-    const glm::vec3 origin = gpu::mapPoint(record.worldToObject, w.ray.origin);
-    const glm::vec3 direction = gpu::mapDirection(record.worldToObject, w.ray.direction);
-    const gpu::BoxRay box = gpu::boxRay(origin, direction, record.extent);
-    LeafRay leafRay;
-    setLeafRay(leafRay, gpu::triangleRay(origin, direction), box, entry, exit, index);
-    NodeRay nodeRay;
-    setNodeRay(nodeRay, box, w.ray.tMin);
+    if (record.keyCount + record.geometryKeys > 1) return walkMoving<ANY>(w, index, entry, exit);
+    InstanceRay ray;
+    setInstanceRay(ray, w, index, record.worldToObject, entry, exit);
     const auto* tree = reinterpret_cast<const WideUnit*>(record.nodes);
-    walkTree<Leaves::Triangles>(tree, nodeRay, w.best.t, [&](uint32_t leaf) {
-        return testLeaf<ANY>(w, leafRay, reinterpret_cast<const WideLeaf&>(tree[leaf]));
+    walkTree<Leaves::Triangles>(tree, ray.node, w.best.t, [&](uint32_t leaf) {
+        return testLeaf<ANY>(w, ray.leaf, reinterpret_cast<const WideLeaf&>(tree[leaf]));
     });
     return ANY && w.best.instance != gpu::NO_INDEX;
 }

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "renderer/api/motion.h"
 #include "renderer/api/types.h"
 
 namespace hipr {
@@ -60,7 +61,8 @@ struct TriangleMesh {
     Interpolation normalInterpolation = Interpolation::Vertex; ///< Vertex or FaceVarying
     std::vector<TrianglePrimvar> primvars;
     bool doubleSided = false;
-    glm::vec3 boundsMin{0.f}, boundsMax{0.f};
+    std::vector<MeshKey> motion; ///< by rising time; below two it does not deform. The rest is at the frame's time
+    glm::vec3 boundsMin{0.f}, boundsMax{0.f}; ///< of all times
 };
 
 /// Validates, refines (OpenSubdiv) and triangulates. Never throws on bad data: broken faces, points and
@@ -77,5 +79,12 @@ std::shared_ptr<const TriangleMesh> buildTriangleMesh(const MeshDesc& desc, cons
 /// without holes and authored normals, where triangles and primvars are taken from `old`.
 std::shared_ptr<const TriangleMesh> updatePoints(const TriangleMesh& old, const MeshDesc& desc,
                                                  const MessageSink& messages);
+
+/// A mesh as it is at a time, in frames from the one that is rendered.
+using MeshShape = std::pair<float, std::shared_ptr<const TriangleMesh>>;
+
+/// `mesh` with the shapes that it has at other times, which are to be in order of time. Null when one of them has another
+/// number of vertices or triangles.
+std::shared_ptr<const TriangleMesh> withMotion(const TriangleMesh& mesh, const std::vector<MeshShape>& shapes);
 
 } // namespace hipr

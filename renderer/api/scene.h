@@ -11,6 +11,7 @@
 #include "renderer/api/light.h"
 #include "renderer/api/material.h"
 #include "renderer/api/mesh.h"
+#include "renderer/api/motion.h"
 #include "renderer/api/splats.h"
 #include "renderer/api/volume.h"
 
@@ -37,6 +38,7 @@ struct InstancesDesc {
     std::vector<Primvar> primvars; ///< one value per instance; override the mesh's primvar of the same name
     std::vector<std::vector<std::string>>
         categories{}; ///< of each instance, beside the object's; may be shorter
+    InstanceMotion motion{}; ///< where they are while the shutter is open; `transforms` is at the frame's time
 };
 
 /// What kind of change happened to an element; bits combine.

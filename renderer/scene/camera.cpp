@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "renderer/scene/motion.h"
+
 namespace hipr {
 namespace {
 
@@ -117,6 +119,28 @@ std::optional<gpu::CameraRecord> cameraRecord(const CameraDesc& camera) {
     addLens(camera.lens, toWorld, record);
     addClipPlanes(camera, glm::dvec3(record.origin), record);
     return record;
+}
+
+std::vector<glm::mat4x3> cameraKeys(const CameraDesc& camera, const gpu::CameraRecord& record,
+                                    const Shutter& shutter) {
+    if (!shutter.blurs() || camera.motion.size() < 2) return {};
+    const glm::dvec4 eye = camera.worldToView * glm::dvec4(glm::dvec3(record.origin), 1);
+    std::vector<float> times;
+    std::vector<glm::dmat4x3> places;
+    for (const CameraKey& key : camera.motion) {
+        const glm::dmat4 viewToWorld = glm::inverse(key.worldToView);
+        if (!finite(viewToWorld)) return {};
+        const glm::dmat3 linear = glm::dmat3(viewToWorld) * glm::dmat3(camera.worldToView);
+        times.push_back(key.time);
+        places.push_back({linear[0], linear[1], linear[2], glm::dvec3(viewToWorld * eye)});
+    }
+    const PlacementMotion motion(times, places);
+    if (!motion.moves()) return {};
+    std::vector<glm::mat4x3> keys;
+    const uint32_t count = motion.keys(shutter);
+    for (uint32_t k = 0; k < count; ++k)
+        keys.push_back(glm::mat4x3(motion.at(keyFrame(shutter, k, count))));
+    return keys;
 }
 
 } // namespace hipr

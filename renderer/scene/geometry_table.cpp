@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "renderer/scene/motion.h"
+
 namespace hipr {
 namespace {
 
@@ -31,6 +33,8 @@ uint64_t bytesOf(const TriangleMesh& mesh) {
                      mesh.triangleSlot.size() * sizeof(uint16_t) + mesh.normals.size() * sizeof(glm::vec3);
     for (const TrianglePrimvar& primvar : mesh.primvars)
         bytes += primvar.values.size() * sizeof(float);
+    for (const MeshKey& key : mesh.motion)
+        bytes += (key.positions.size() + key.normals.size()) * sizeof(glm::vec3);
     return bytes;
 }
 
@@ -46,8 +50,8 @@ Change GeometryTable::set(GeometryId id, std::shared_ptr<const TriangleMesh> mes
         entry.slot = _freeSlots.back();
         _freeSlots.pop_back();
     } else {
-        const bool sameShape =
-            entry.mesh->positions == mesh->positions && entry.mesh->triangles == mesh->triangles;
+        const bool sameShape = entry.mesh->positions == mesh->positions &&
+                               entry.mesh->triangles == mesh->triangles && entry.mesh->motion == mesh->motion;
         if (sameShape && equalAttributes(*entry.mesh, *mesh)) {
             entry.mesh = std::move(mesh);
             return Change::None;
@@ -79,6 +83,19 @@ const Geometry* GeometryTable::find(GeometryId id) const {
     return it == _entries.end() ? nullptr : &it->second;
 }
 
+void GeometryTable::setShutter(const Shutter& shutter) {
+    if (shutter == _shutter) return;
+    _shutter = shutter;
+    for (auto& [id, entry] : _entries)
+        if (!entry.mesh->motion.empty())
+            entry.shapePending = entry.attributesPending = _recordsPending = true;
+}
+
+bool GeometryTable::anyMotion() const {
+    return std::any_of(_entries.begin(), _entries.end(),
+                       [](const auto& e) { return e.second.mesh->motion.size() > 1; });
+}
+
 void GeometryTable::resubmit() {
     for (auto& [id, entry] : _entries)
         entry.submitted = nullptr;
@@ -91,6 +108,7 @@ void GeometryTable::commit(Traversal& traversal) {
     }
     _removedSlots.clear();
     for (auto& [id, entry] : _entries) {
+        if (entry.shapePending) entry.keys = meshKeys(*entry.mesh, _shutter);
         if (entry.attributesPending) uploadAttributes(entry);
         if (entry.shapePending) uploadShape(entry);
         if (entry.shapePending || !entry.submitted) submit(entry, traversal);
@@ -109,8 +127,10 @@ void GeometryTable::commit(Traversal& traversal) {
 void GeometryTable::uploadShape(Entry& entry) {
     const TriangleMesh& mesh = *entry.mesh;
     BufferPack pack;
-    const uint64_t positions =
-        pack.add(mesh.positions, 16); // host traversals read 4 bytes beyond the last vertex
+    entry.keyPositions.clear();
+    if (entry.keys > 1) entry.keyPositions = keyed(mesh, &MeshKey::positions, _shutter, entry.keys);
+    const uint64_t positions = // host traversals read 4 bytes beyond the last vertex
+        pack.add(entry.keys > 1 ? entry.keyPositions : mesh.positions, 16);
     const uint64_t triangles = pack.add(mesh.triangles);
     _retired.push_back(std::move(entry.shape));
     entry.shape = _device.createBuffer(pack.bytes(), MemoryUse::Device, "Geometry");
@@ -119,12 +139,15 @@ void GeometryTable::uploadShape(Entry& entry) {
     entry.record.triangles = entry.shape.address() + triangles;
     entry.record.vertexCount = uint32_t(mesh.positions.size());
     entry.record.triangleCount = uint32_t(mesh.triangles.size());
+    entry.record.keys = entry.keys;
+    if (entry.shape.mapped()) entry.keyPositions = {};
 }
 
 void GeometryTable::uploadAttributes(Entry& entry) {
     const TriangleMesh& mesh = *entry.mesh;
     BufferPack pack;
-    const uint64_t normals = pack.add(mesh.normals);
+    const uint64_t normals =
+        pack.add(entry.keys > 1 ? keyed(mesh, &MeshKey::normals, _shutter, entry.keys) : mesh.normals);
     const uint64_t faces = pack.add(mesh.triangleFace);
     const uint64_t slots = pack.add(mesh.triangleSlot);
     std::vector<gpu::PrimvarRecord> primvars;
@@ -152,18 +175,22 @@ void GeometryTable::uploadAttributes(Entry& entry) {
 void GeometryTable::submit(Entry& entry, Traversal& traversal) {
     const TriangleMesh& mesh = *entry.mesh;
     const bool sameTopology = entry.submitted && entry.submitted->triangles == mesh.triangles &&
-                              entry.submitted->positions.size() == mesh.positions.size();
+                              entry.submitted->positions.size() == mesh.positions.size() &&
+                              entry.submittedKeys == entry.keys;
     // Where kernels and host share memory the traversal reads the same copy as they do.
-    const void* positions = entry.shape.mapped() ? entry.shape.mapped() : mesh.positions.data();
+    const void* own = entry.keys > 1 ? entry.keyPositions.data() : mesh.positions.data();
+    const void* positions = entry.shape.mapped() ? entry.shape.mapped() : own;
     GeometryView view{static_cast<const glm::vec3*>(positions),
                       entry.record.vertexCount,
                       mesh.triangles.data(),
                       entry.record.triangleCount,
                       entry.record.positions,
                       entry.record.triangles,
-                      sameTopology};
+                      sameTopology,
+                      entry.keys};
     traversal.setGeometry(entry.slot, mesh.triangles.empty() ? nullptr : &view);
     entry.submitted = entry.mesh;
+    entry.submittedKeys = entry.keys;
 }
 
 uint64_t GeometryTable::hostBytes() const {

@@ -18,6 +18,7 @@ struct Geometry {
     std::shared_ptr<const TriangleMesh> mesh;
     uint32_t slotCount = 1;   ///< material slots in use
     bool translucent = false; ///< its displayOpacity is below 1 somewhere
+    uint32_t keys = 1;        ///< GeometryRecord::keys
 };
 
 class GeometryTable {
@@ -30,6 +31,11 @@ public:
     /// Returns whether the geometry existed.
     bool remove(GeometryId id);
     const Geometry* find(GeometryId id) const;
+
+    /// Takes effect in commit().
+    void setShutter(const Shutter& shutter);
+    /// Whether any mesh deforms.
+    bool anyMotion() const;
 
     /// Uploads what changed and hands new shapes to the traversal, which builds them in its own commit().
     void commit(Traversal& traversal);
@@ -46,6 +52,8 @@ private:
         Buffer shape, attributes; ///< apart, so that new primvars leave the traversal alone
         gpu::GeometryRecord record{};
         std::shared_ptr<const TriangleMesh> submitted; ///< the mesh the traversal has
+        uint32_t submittedKeys = 1;
+        std::vector<glm::vec3> keyPositions; ///< for a traversal that cannot read those in `shape`
         bool shapePending = true, attributesPending = true;
     };
     void uploadShape(Entry& entry);
@@ -60,6 +68,7 @@ private:
     uint32_t _slotCount = 0;
     bool _recordsPending = false;
     DeviceTable _records;
+    Shutter _shutter;
 };
 
 } // namespace hipr

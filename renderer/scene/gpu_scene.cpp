@@ -198,10 +198,12 @@ bool GpuScene::setOptions(const SceneOptions& options) {
 void GpuScene::commit() {
     _textures.commit();
     _materials.commit();
+    _geometries.setShutter(shutter());
+    _objects.setShutter(shutter());
     _geometries.commit(*_traversal);
     const MaterialTable* const materials = _options.materials ? &_materials : nullptr;
     if (_objects.commit(_geometries, _splats, _volumes, materials) || _traversalChanged)
-        _traversal->setInstances(_objects.records());
+        _traversal->setInstances(_objects.instances());
     _traversal->commit();
     _traversalChanged = _tracedChanged = false;
     _volumes.commit(_objects.volumes());

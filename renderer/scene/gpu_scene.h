@@ -15,9 +15,10 @@ namespace hipr {
 
 /// Settings that change what is in the scene.
 struct SceneOptions {
-    bool lights = true, materials = true, domeVisibleToCamera = true;
+    bool lights = true, materials = true, domeVisibleToCamera = true, motionBlur = true;
     bool operator==(const SceneOptions& o) const {
-        return lights == o.lights && materials == o.materials && domeVisibleToCamera == o.domeVisibleToCamera;
+        return lights == o.lights && materials == o.materials &&
+               domeVisibleToCamera == o.domeVisibleToCamera && motionBlur == o.motionBlur;
     }
 };
 
@@ -67,6 +68,12 @@ public:
     uint64_t splatRevision() const { return _objects.splatRevision(); }
     /// Whether there is anything that paths meet: after commit().
     bool anythingTraced() const { return !_objects.records().empty(); }
+    /// The camera's, or a closed one where nothing is to be blurred.
+    Shutter shutter() const { return _camera && _options.motionBlur ? _camera->shutter : Shutter(); }
+    /// Whether something may move while the shutter is open, the camera included.
+    bool moves() const {
+        return shutter().blurs() && (_camera->motion.size() > 1 || _geometries.anyMotion() || _objects.anyMotion());
+    }
     /// The SceneRecord, once committed.
     VkDeviceAddress address() const { return _record.address(); }
     uint32_t flags() const { return _hostRecord.flags; } ///< SCENE_*

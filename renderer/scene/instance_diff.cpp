@@ -35,7 +35,8 @@ public:
     /// What differs between instance `i` as it was and `j` as it is.
     Change change(size_t i, size_t j) const {
         Change change = Change::None;
-        if (!sameTransform(_before.transforms[i], _now.transforms[j])) change = Change::Transform;
+        if (!sameTransform(_before.transforms[i], _now.transforms[j]) || !sameMotion(i, j))
+            change = Change::Transform;
         if (!sameCategories(i, j)) change = change | Change::Linking;
         return sameId(i, j) && samePrimvars(i, j) ? change : change | Change::Primvar;
     }
@@ -49,6 +50,13 @@ private:
         if (old.name != now.name || old.components != now.components) return false;
         if (!complete(old, oldCount) || !complete(now, count)) return false;
         _pairs.push_back({&old, &now});
+        return true;
+    }
+    bool sameMotion(size_t i, size_t j) const {
+        const InstanceMotion &old = _before.motion, &now = _now.motion;
+        if (old.times != now.times) return false;
+        for (size_t t = 0; t < old.times.size(); ++t)
+            if (!sameTransform(old.transforms[t][i], now.transforms[t][j])) return false;
         return true;
     }
     bool sameId(size_t i, size_t j) const {

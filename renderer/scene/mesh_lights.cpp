@@ -97,7 +97,10 @@ void MeshLights::commit(const ObjectTable& objects, const GeometryTable& geometr
     const std::vector<ObjectTable::Emitter> emitters =
         materials ? objects.emitters(*materials) : std::vector<ObjectTable::Emitter>();
     for (const ObjectTable::Emitter& emitter : emitters) {
-        const Entry& entry = entryOf(emitter, *geometries.find(emitter.desc->geometry), *materials);
+        const Geometry& geometry = *geometries.find(emitter.desc->geometry);
+        // What moves while the shutter is open is nowhere long enough to be aimed at: rays find it by chance.
+        if (objects.records()[emitter.first].keyCount > 0 || geometry.keys > 1) continue;
+        const Entry& entry = entryOf(emitter, geometry, *materials);
         if (!(entry.spread.weight > 0.0)) continue;
         for (uint32_t i = emitter.first; i < emitter.first + emitter.count; ++i) {
             const glm::mat4x3& objectToWorld = objects.records()[i].objectToWorld;

@@ -4,27 +4,16 @@
 #include <cmath>
 
 #include "renderer/scene/instance_diff.h"
+#include "renderer/scene/placements.h"
 
 namespace hipr {
 namespace {
 
-bool finite(const glm::dmat4x3& m) {
-    for (int c = 0; c < 4; ++c)
-        if (!std::isfinite(m[c].x) || !std::isfinite(m[c].y) || !std::isfinite(m[c].z)) return false;
-    return true;
-}
-
-glm::dmat4x3 inverseOf(const glm::mat4x3& m) {
-    return glm::dmat4x3(glm::inverse(
-        glm::dmat4(glm::dvec4(m[0], 0), glm::dvec4(m[1], 0), glm::dvec4(m[2], 0), glm::dvec4(m[3], 1))));
-}
-
-bool canBeRendered(const glm::mat4x3& m) {
-    return finite(glm::dmat4x3(m)) && finite(inverseOf(m)) && finite(glm::dmat4x3(glm::mat4x3(inverseOf(m))));
-}
-
-bool mirrors(const glm::mat4x3& m) {
-    return glm::dot(glm::cross(m[0], m[1]), m[2]) < 0;
+/// Whether a motion has a placement for every instance and time.
+bool complete(const InstanceMotion& motion, size_t instances) {
+    return motion.times.size() == motion.transforms.size() &&
+           std::all_of(motion.transforms.begin(), motion.transforms.end(),
+                       [&](const auto& transforms) { return transforms.size() == instances; });
 }
 
 bool isTranslucent(const std::vector<Primvar>& primvars) {
@@ -39,7 +28,8 @@ bool isTranslucent(const std::vector<Primvar>& primvars) {
 bool ObjectTable::Placement::operator==(const Placement& o) const {
     return first == o.first && count == o.count && geometry == o.geometry &&
            firstMaterial == o.firstMaterial && materialCount == o.materialCount && flags == o.flags &&
-           primId == o.primId && categories == o.categories;
+           primId == o.primId && categories == o.categories && firstKey == o.firstKey &&
+           keyCount == o.keyCount;
 }
 
 void ObjectTable::note(ChangedSet& changed, ObjectId id, const Entry& entry, Change change,
@@ -75,8 +65,15 @@ void ObjectTable::setObject(ObjectId id, const ObjectDesc& desc, ChangedSet& cha
 }
 
 void ObjectTable::setInstances(ObjectId id, const InstancesDesc& desc, ChangedSet& changed) {
-    static const InstancesDesc once{{glm::mat4x3(1.f)}, {}, {}, {}};
+    static const InstancesDesc once{{glm::mat4x3(1.f)}, {}, {}, {}, {}};
     Entry& entry = _entries[id];
+    if (!complete(desc.motion, desc.transforms.size())) {
+        InstancesDesc still = desc;
+        still.motion = {};
+        _device.messages()(Severity::Warning, entry.desc ? entry.desc->name : "",
+                           "the motion of its instances is not complete; they stand still");
+        return setInstances(id, still, changed);
+    }
     const std::vector<InstanceChange> changes =
         changedInstances(entry.instances ? *entry.instances : once, desc);
     if (changes.empty()) return;
@@ -231,20 +228,12 @@ void ObjectTable::writeRecords(ObjectId id, Entry& entry) {
         record.object = uint32_t(id);
         record.objectInstance = source;
         record.categories = categoriesOf(entry, source);
+        record.firstKey = placed.firstKey + i * placed.keyCount;
+        record.keyCount = placed.keyCount;
         record.primvarCount = entry.primvarCount;
         record.primvars =
             entry.primvarCount ? entry.primvarTable + i * entry.primvarCount * sizeof(gpu::PrimvarRecord) : 0;
     }
-}
-
-/// The world box of a committed instance, counted among those that can be rendered.
-WorldBox ObjectTable::placedBox(const Entry& entry, uint32_t i) const {
-    const glm::vec3 centre = 0.5f * (entry.meshBox.min + entry.meshBox.max),
-                    half = 0.5f * (entry.meshBox.max - entry.meshBox.min);
-    const glm::mat4x3& m = placedTransform(entry, i);
-    const glm::vec3 c = m * glm::vec4(centre, 1.f);
-    const glm::vec3 h = glm::abs(m[0]) * half.x + glm::abs(m[1]) * half.y + glm::abs(m[2]) * half.z;
-    return {c - h, c + h};
 }
 
 /// The committed box of one instance or of all; empty if it is not rendered.
@@ -316,7 +305,7 @@ bool ObjectTable::commit(const GeometryTable& geometries, const SplatTable& spla
     _tracedChanged = false;
     std::vector<uint32_t> materialIndices;
     std::vector<std::pair<ObjectId, Entry*>> rewritten;
-    uint32_t total = 0;
+    uint32_t total = 0, keys = 0;
     for (const ObjectId id : order()) {
         Entry& entry = _entries.at(id);
         entry.fresh = false;
@@ -326,11 +315,17 @@ bool ObjectTable::commit(const GeometryTable& geometries, const SplatTable& spla
         const bool transformsChanged = (geometry || set || volume) && entry.transformsPending;
         if (transformsChanged) {
             findUsable(entry);
+            findKeys(entry);
             uploadPrimvars(entry);
             entry.transformsPending = false;
         }
         placeSplats(entry, set, transformsChanged);
-        const Placement placement = place(entry, geometry, materials, total, materialIndices);
+        Placement placement = place(entry, geometry, materials, total, materialIndices);
+        if (placement.count > 0 && entry.keyCount > 0) {
+            placement.firstKey = keys;
+            placement.keyCount = entry.keyCount;
+            keys += placement.count * placement.keyCount;
+        }
         if ((transformsChanged && geometry) || !(placement == entry.placed))
             rewritten.push_back({id, &entry});
         entry.placed = placement;
@@ -345,6 +340,7 @@ bool ObjectTable::commit(const GeometryTable& geometries, const SplatTable& spla
         entry->boundsPending |= entry->placed.count > 0; // placeSplats() has seen to splats
     }
     uploadRecords(rewritten);
+    if (resized || !rewritten.empty()) uploadKeys();
     if (materialIndices != _materialIndices) {
         _materialIndices = std::move(materialIndices);
         _materialTable.reserve(_device, _materialIndices.size() * sizeof(uint32_t), "Instance tables");
@@ -390,6 +386,7 @@ void ObjectTable::summarise(const GeometryTable& geometries) {
 void ObjectTable::describe(gpu::SceneRecord& scene) const {
     scene.instances = _recordTable.address();
     scene.instanceCount = uint32_t(_records.size());
+    scene.motionKeys = _keyTable.address();
     scene.materialIndices = _materialTable.address();
     scene.boundsMin = _boundsMin;
     scene.boundsMax = _boundsMax;

@@ -40,6 +40,10 @@ public:
     /// changed in a way a traversal must know. `materials` null: every object shows the fallback look.
     bool commit(const GeometryTable& geometries, const SplatTable& splats, const VolumeTable& volumes,
                 const MaterialTable* materials);
+    /// Takes effect in commit().
+    void setShutter(const Shutter& shutter);
+    /// Whether any instance has motion.
+    bool anyMotion() const;
 
     const std::vector<gpu::InstanceRecord>& records() const { return _records; }
     /// An object that shows a material which emits: its records are `count` from `first` on.
@@ -50,6 +54,8 @@ public:
     };
     /// In the order of their records; as of the last commit.
     std::vector<Emitter> emitters(const MaterialTable& materials) const;
+    /// The records, and where those that move are while the shutter is open.
+    InstanceView instances() const { return {_records, _keys, _keyTable.address()}; }
     /// Where clouds of splats stand, in the order of the objects' names; as of the last commit.
     std::vector<SplatPlacement> splats() const;
     /// Where volumes stand, likewise.
@@ -76,12 +82,15 @@ private:
         uint32_t first = 0, count = 0, geometry = 0, firstMaterial = 0, materialCount = 0, flags = 0;
         int primId = -1;
         uint32_t categories = 0;
+        uint32_t firstKey = 0, keyCount = 0; ///< of the first instance; of each one
         bool operator==(const Placement& o) const;
     };
     struct Entry {
         std::optional<ObjectDesc> desc;
         std::optional<InstancesDesc> instances; ///< none: stands once, untransformed
         std::vector<uint32_t> usable;           ///< indices of transforms that can be rendered
+        std::vector<glm::mat4x3> keys;          ///< of `usable`, keyCount each
+        uint32_t keyCount = 0;                  ///< 0: they stand still
         Placement placed;
         Buffer primvars;
         uint32_t primvarCount = 0;
@@ -115,6 +124,8 @@ private:
     /// edits.
     const std::vector<ObjectId>& order();
     void findUsable(Entry& entry);
+    void findKeys(Entry& entry);
+    void uploadKeys();
     void uploadPrimvars(Entry& entry);
     uint32_t categoriesOf(const Entry& entry, uint32_t instance);
     void writeRecords(ObjectId id, Entry& entry);
@@ -133,7 +144,9 @@ private:
     std::vector<ObjectId> _order; ///< of another size than `_entries`: to be made anew
     std::vector<gpu::InstanceRecord> _records;
     std::vector<uint32_t> _materialIndices;
-    DeviceTable _recordTable, _materialTable;
+    std::vector<glm::mat4x3> _keys; ///< see InstanceRecord::firstKey
+    Shutter _shutter;
+    DeviceTable _recordTable, _materialTable, _keyTable;
     std::vector<WorldBox> _vacated;
     glm::vec3 _boundsMin{0.f}, _boundsMax{0.f};
     uint64_t _splatRevision = 0;

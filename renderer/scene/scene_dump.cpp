@@ -141,6 +141,9 @@ void dumpCamera(SceneDump& dump, const CameraDesc& camera) {
     for (const glm::dvec4& plane : camera.clipPlanes)
         out.fact("clipPlane", plane);
     out.fact("exposure", camera.exposure);
+    out.fact("shutter", camera.shutter.open, camera.shutter.close);
+    for (const CameraKey& key : camera.motion)
+        out.fact("key", key.time, key.worldToView);
 }
 
 void dumpMesh(SceneDump& dump, const TriangleMesh& mesh) {
@@ -152,6 +155,8 @@ void dumpMesh(SceneDump& dump, const TriangleMesh& mesh) {
     out.fact("normals", name(mesh.normalInterpolation), mesh.normals.size(), contentHash(mesh.normals));
     out.fact("doubleSided", mesh.doubleSided);
     out.fact("bounds", mesh.boundsMin, mesh.boundsMax);
+    for (const MeshKey& key : mesh.motion)
+        out.fact("key", key.time, contentHash(key.positions), contentHash(key.normals));
     std::vector<const TrianglePrimvar*> primvars;
     for (const TrianglePrimvar& primvar : mesh.primvars)
         primvars.push_back(&primvar);

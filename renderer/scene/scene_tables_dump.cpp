@@ -74,18 +74,22 @@ void VolumeTable::dump(SceneDump& dump, const MaterialNames& nameOf) const {
 }
 
 void ObjectTable::dumpInstances(SceneDump::Element& out, const Entry& entry) const {
-    static const InstancesDesc once{{glm::mat4x3(1.f)}, {}, {}, {}}; // what an object without any stands for
+    static const InstancesDesc once{
+        {glm::mat4x3(1.f)}, {}, {}, {}, {}}; // what an object without any stands for
     const InstancesDesc& instances = entry.instances ? *entry.instances : once;
     out.fact("instances", instances.transforms.size());
     dumpPrimvars(out, "instance", instances.primvars);
     for (size_t i = 0; i < instances.transforms.size(); ++i) {
         out.fact("instance", i, "transform", instances.transforms[i]);
+        for (size_t t = 0; t < instances.motion.times.size(); ++t)
+            out.fact("instance", i, "at", instances.motion.times[t], instances.motion.transforms[t][i]);
         out.fact("instance", i, "id", i < instances.instanceIds.size() ? instances.instanceIds[i] : int(i));
     }
     for (uint32_t i = 0; i < entry.placed.count; ++i) {
         const gpu::InstanceRecord& record = _records[entry.placed.first + i];
         out.fact("record", i, "instance", entry.usable[i], "id", record.instanceId, "transform",
-                 record.objectToWorld);
+                 record.objectToWorld, "keys", record.keyCount,
+                 contentHash(_keys.data() + record.firstKey, record.keyCount * sizeof(glm::mat4x3)));
     }
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "renderer/scene/motion.h"
+
 namespace hipr {
 namespace {
 
@@ -26,11 +28,18 @@ uint32_t groupsOf(uint32_t invocations) {
 PathTracer::PathTracer(Device& device, uint32_t capacity)
     : _device(device), _kernels(device, traceKernelSources()), _buffers(device, capacity),
       _record(device.createBuffer(sizeof(gpu::TraceRecord), MemoryUse::Device, "Path queues")),
-      _camera(device.createBuffer(sizeof(gpu::CameraRecord), MemoryUse::Device, "Path queues")) {}
+      _camera(device.createBuffer(sizeof(gpu::CameraRecord), MemoryUse::Device, "Path queues")),
+      _cameraKeys(
+          device.createBuffer(MaxMotionKeys * sizeof(glm::mat4x3), MemoryUse::Device, "Path queues")) {}
 
-void PathTracer::setup(gpu::TraceRecord record, const gpu::CameraRecord& camera, uint32_t sceneFlags) {
+void PathTracer::setup(gpu::TraceRecord record, const gpu::CameraRecord& camera,
+                       const std::vector<glm::mat4x3>& cameraKeys, uint32_t sceneFlags) {
     _buffers.describe(record);
     record.camera = _camera.address();
+    record.cameraKeys = _cameraKeys.address();
+    record.cameraKeyCount = uint32_t(cameraKeys.size());
+    if (!cameraKeys.empty())
+        _device.upload(_cameraKeys, cameraKeys.data(), cameraKeys.size() * sizeof(glm::mat4x3));
     _scene = record.scene;
     _sceneFlags = sceneFlags;
     if ((sceneFlags & gpu::SCENE_HAS_MESH_LIGHTS) && !_emission)

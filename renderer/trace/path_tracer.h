@@ -62,7 +62,8 @@ public:
 
     /// What the next batches render: addresses of scene and film, film size and settings are the caller's to
     /// fill in. `sceneFlags`: SCENE_*.
-    void setup(gpu::TraceRecord record, const gpu::CameraRecord& camera, uint32_t sceneFlags);
+    void setup(gpu::TraceRecord record, const gpu::CameraRecord& camera,
+               const std::vector<glm::mat4x3>& cameraKeys, uint32_t sceneFlags);
 
     /// Renders the tiles and adds them to the film. False when `cancel` was seen: then the film is as before.
     /// `discovery`, if any, gets the weights of this batch.
@@ -113,7 +114,7 @@ private:
     std::unique_ptr<BackgroundKernels> _emission;      ///< once a scene has asked for it
     std::unique_ptr<BackgroundKernels> _volumeKernels; ///< once a scene had volumes
     WavefrontBuffers _buffers;
-    Buffer _record, _camera;
+    Buffer _record, _camera, _cameraKeys;
     VkDeviceAddress _scene = 0;
     uint32_t _sceneFlags = 0;
     Profile _profile;

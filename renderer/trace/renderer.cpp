@@ -108,6 +108,7 @@ ChangedSet RendererImpl::commit(SceneEdit& edit) {
         const bool traced = _scene.tracedChanged() || lensChanged(before, _scene.camera()) ||
                             (_schedule.pilot() > 0 && exposureChanged(before, _scene.camera()));
         std::vector<WorldBox> regions = _scene.takeVacated();
+        selectTraversal();
         _scene.commit();
         _scene.addOccupied(changed, regions);
         if (camera || traced) restart(camera ? Cause::Camera : Cause::Edit);
@@ -190,7 +191,9 @@ bool RendererImpl::setup() {
     record.darkest = DarkestRadiance / std::max(cameraExposure(), std::numeric_limits<float>::min());
     record.discovery = _edits.address();
     record.changeScale = _edits.changeScale();
-    _tracer.setup(record, *camera, _scene.flags());
+    record.moving = _scene.moves();
+    record.frameTime = float(_scene.shutter().frame());
+    _tracer.setup(record, *camera, cameraKeys(*_scene.camera(), *camera, _scene.shutter()), _scene.flags());
     _setupPending = false;
     return true;
 }

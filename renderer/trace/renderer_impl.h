@@ -81,6 +81,7 @@ private:
     RendererInternals _internals;
     Settings _settings;
     std::string _traversalInUse;
+    bool _traversalReplaced = false; ///< by one that knows the time
     GpuScene _scene;
     FilmBuffers _film;
     TileSchedule _schedule;

@@ -36,12 +36,22 @@ ChangedSet settingChange() {
 } // namespace
 
 void RendererImpl::selectTraversal() {
-    if (_settings.traversal == _traversalInUse) return;
+    const bool timed = _scene.moves();
+    const bool fits = _settings.traversal == _traversalInUse &&
+                      (timed ? _scene.traversal().knowsTime() : !_traversalReplaced);
+    if (fits) return;
     TraversalKind kind = defaultTraversal(*_device);
     if (_settings.traversal == "host") kind = TraversalKind::Host;
     if (_settings.traversal == "embree") kind = TraversalKind::Embree;
     if (_settings.traversal == "bvh") kind = TraversalKind::Bvh;
     if (_settings.traversal == "rayquery") kind = TraversalKind::RayQuery;
+    const bool blind = kind == TraversalKind::RayQuery && _device->info().rayQuery && timed;
+    if (blind) kind = TraversalKind::Bvh;
+    if (blind && !_traversalReplaced)
+        _device->messages()(
+            Severity::Info, "",
+            "ray query knows nothing of motion: while something moves, rays take a tree of our own");
+    _traversalReplaced = blind;
     try {
         _scene.setTraversal(createTraversal(kind, *_device));
     } catch (const DeviceLost&) {
@@ -80,9 +90,9 @@ ChangedSet RendererImpl::setSettings(const Settings& settings) {
         _film.keepSpreads(settings.convergedVariance > 0.f);
         if (_film.keepHits(discovers)) findFirstHits(discovers);
         const std::string traversal = _traversalInUse;
+        const bool options = _scene.setOptions({settings.enableSceneLights, settings.enableSceneMaterials,
+                                                settings.domeLightCameraVisibility, settings.motionBlur});
         selectTraversal();
-        const bool options = _scene.setOptions(
-            {settings.enableSceneLights, settings.enableSceneMaterials, settings.domeLightCameraVisibility});
         if (options || traversal != _traversalInUse) _scene.commit();
         _setupPending = true;
         _splats.setSettings(settings);

@@ -4,6 +4,7 @@
 #include "shared/references.glsl"
 #include "shared/bvh.h"
 #include "shared/intersect.h"
+#include "accel/motion.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer BvhSceneRef { BvhScene v; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer BvhInstanceRef { BvhInstance v[]; };
@@ -12,6 +13,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Bvh
 
 const uint BVH_STACK = BVH_MAX_INSTANCE_DEPTH + BVH_MAX_TRIANGLE_DEPTH;
 const uint BVH_NO_BASE = 0xffffffffu;
+const uint64_t BVH_TRIANGLE_BYTES = 40ul;
 
 // The nearest hit, or with `any` some hit; `hit.instance` is NO_INDEX when there is none.
 Hit traceBvh(uint64_t scene, Ray ray, uint mask, const bool any) {
@@ -26,6 +28,8 @@ Hit traceBvh(uint64_t scene, Ray ray, uint mask, const bool any) {
     uint base = BVH_NO_BASE;
     uint instance = 0u;
     uint64_t triangles = 0ul;
+    uint nextKey = 0u; // distance of a triangle's keys; 0: it does not deform
+    float keyWeight = 0.0;
     TriangleRay triangleRay_ = TriangleRay(vec3(0.0), 0u, vec3(0.0));
     float entry = 0.0, exit = 0.0; // of the instance's world box
 
@@ -51,12 +55,22 @@ Hit traceBvh(uint64_t scene, Ray ray, uint mask, const bool any) {
                 BvhInstance record = BvhInstanceRef(top.instances).v[instance];
                 boxInterval(worldBox, record.lo, record.hi, entry, exit);
                 if ((record.mask & mask) != 0u && max(entry, ray.tMin) <= min(exit, hit.t)) {
+                    if (record.keyCount > 0u)
+                        record.worldToObject =
+                            inverseTransform(transformAt(top.motionKeys, record.firstKey, record.keyCount, ray.time));
                     vec3 origin = mapPoint(record.worldToObject, ray.origin);
                     vec3 direction = mapDirection(record.worldToObject, ray.direction);
                     box = boxRay(origin, direction, record.extent);
                     triangleRay_ = triangleRay(origin, direction);
                     nodes = record.nodes;
                     triangles = record.triangles;
+                    nextKey = 0u;
+                    if (record.geometryKeys > 1u) {
+                        KeyTime at = keyTime(ray.time, record.geometryKeys);
+                        nextKey = record.triangleCount;
+                        keyWeight = at.weight;
+                        triangles += uint64_t(at.first * nextKey) * BVH_TRIANGLE_BYTES;
+                    }
                     base = depth;
                     node = 0u;
                     pop = false;
@@ -67,6 +81,12 @@ Hit traceBvh(uint64_t scene, Ray ray, uint mask, const bool any) {
             uint last = first + ((node >> BVH_COUNT_SHIFT) & BVH_COUNT_MASK);
             for (uint i = first; i < last; ++i) {
                 BvhTriangle t = BvhTriangleRef(triangles).v[i];
+                if (nextKey > 0u) {
+                    BvhTriangle next = BvhTriangleRef(triangles).v[i + nextKey];
+                    t.a = mixKeys(t.a, next.a, keyWeight);
+                    t.b = mixKeys(t.b, next.b, keyWeight);
+                    t.c = mixKeys(t.c, next.c, keyWeight);
+                }
                 float distance, u, v;
                 if (canonicalHit(triangleRay_, box, t.a, t.b, t.c, entry, exit, distance, u, v) &&
                     distance > ray.tMin &&

@@ -63,18 +63,16 @@ vec4 graphOperand(GraphReader reader, uint operand) {
 
 // Edges of the triangle in world space, and the front side's normal.
 mat3 graphFrame(ShadingPoint point) {
-    Vec3Ref positions = Vec3Ref(point.geometry.positions);
-    vec3 p0 = positions.v[point.vertices.x];
+    const Corners p = cornersAt(point, point.geometry.positions, point.vertices, point.geometry.vertexCount);
     mat3 toWorld = mat3(point.instance.objectToWorld);
-    vec3 e1 = toWorld * (positions.v[point.vertices.y] - p0), e2 = toWorld * (positions.v[point.vertices.z] - p0);
+    vec3 e1 = toWorld * (p.b - p.a), e2 = toWorld * (p.c - p.a);
     vec3 ng = triangleNormal(e1, e2, (point.instance.flags & INSTANCE_MIRRORED) != 0u);
     return mat3(e1, e2, interpolatedNormal(point, normalizeOr(ng, vec3(0.0, 0.0, 1.0))));
 }
 
 vec3 graphPosition(ShadingPoint point) {
-    Vec3Ref positions = Vec3Ref(point.geometry.positions);
-    return positions.v[point.vertices.x] * (1.0 - point.uv.x - point.uv.y) +
-           positions.v[point.vertices.y] * point.uv.x + positions.v[point.vertices.z] * point.uv.y;
+    const Corners p = cornersAt(point, point.geometry.positions, point.vertices, point.geometry.vertexCount);
+    return p.a * (1.0 - point.uv.x - point.uv.y) + p.b * point.uv.x + p.c * point.uv.y;
 }
 
 // Between object and world space: `immediate` as for GRAPH_TRANSFORM.

@@ -1,6 +1,7 @@
 // Where a ray has hit: the triangle and the frame there.
 #ifndef HIPR_MATERIAL_POINT_GLSL
 #define HIPR_MATERIAL_POINT_GLSL
+#include "accel/motion.glsl"
 #include "material/frame.glsl"
 #include "shared/references.glsl"
 
@@ -11,6 +12,8 @@ struct ShadingPoint {
     uint primitive;
     uvec3 vertices;
     vec2 uv; // barycentric weights of vertices 1 and 2
+    KeyTime at;   // between keys, where
+    bool deforms; // is true
 };
 
 ShadingPoint shadingPoint(SceneRecord scene, Hit hit) {
@@ -20,7 +23,35 @@ ShadingPoint shadingPoint(SceneRecord scene, Hit hit) {
     point.primitive = hit.primitive;
     point.vertices = Uvec3Ref(point.geometry.triangles).v[hit.primitive];
     point.uv = vec2(hit.u, hit.v);
+    point.at = KeyTime(0u, 0.0);
+    point.deforms = false;
     return point;
+}
+
+// Takes a point to where it is at a time of the shutter.
+void moveTo(inout ShadingPoint point, SceneRecord scene, float time) {
+    if (point.instance.keyCount > 0u) {
+        point.instance.objectToWorld =
+            transformAt(scene.motionKeys, point.instance.firstKey, point.instance.keyCount, time);
+        point.instance.worldToObject = inverseTransform(point.instance.objectToWorld);
+    }
+    point.deforms = point.geometry.keys > 1u;
+    point.at = keyTime(time, max(point.geometry.keys, 2u));
+}
+
+// What a triangle's corners have.
+struct Corners {
+    vec3 a, b, c;
+};
+
+// Elements of an array that has `count` for every key.
+Corners cornersAt(ShadingPoint point, uint64_t array, uvec3 elements, uint count) {
+    Vec3Ref values = Vec3Ref(array);
+    if (!point.deforms) return Corners(values.v[elements.x], values.v[elements.y], values.v[elements.z]);
+    const uvec3 from = elements + point.at.first * count, to = from + count;
+    const float w = point.at.weight;
+    return Corners(mixKeys(values.v[from.x], values.v[to.x], w), mixKeys(values.v[from.y], values.v[to.y], w),
+                   mixKeys(values.v[from.z], values.v[to.z], w));
 }
 
 // The MaterialRecord of a hit's slot.
@@ -43,8 +74,9 @@ vec3 interpolatedNormal(ShadingPoint point, vec3 ng) {
     if (point.geometry.normals == 0ul) return ng;
     bool faceVarying = (point.geometry.flags & GEOMETRY_NORMALS_FACE_VARYING) != 0u;
     uvec3 at = faceVarying ? 3u * point.primitive + uvec3(0u, 1u, 2u) : point.vertices;
-    Vec3Ref normals = Vec3Ref(point.geometry.normals);
-    vec3 n = normals.v[at.x] * (1.0 - point.uv.x - point.uv.y) + normals.v[at.y] * point.uv.x + normals.v[at.z] * point.uv.y;
+    const uint count = faceVarying ? 3u * point.geometry.triangleCount : point.geometry.vertexCount;
+    const Corners normals = cornersAt(point, point.geometry.normals, at, count);
+    vec3 n = normals.a * (1.0 - point.uv.x - point.uv.y) + normals.b * point.uv.x + normals.c * point.uv.y;
     n = normalizeOr(n * mat3(point.instance.worldToObject), ng); // times the inverse transpose
     return dot(n, ng) < 0.0 ? -n : n;
 }

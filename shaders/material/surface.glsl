@@ -31,10 +31,10 @@ vec3 applyNormalMap(vec3 n, vec3 mapped, vec3 e1, vec3 e2, vec4 stEdges) {
 
 // Geometry of a hit; the rest of the surface is left to the material.
 void setGeometry(inout Surface s, ShadingPoint point, vec3 wo, out vec3 e1, out vec3 e2) {
-    Vec3Ref positions = Vec3Ref(point.geometry.positions);
-    vec3 p0 = positions.v[point.vertices.x];
-    vec3 edge1 = positions.v[point.vertices.y] - p0;
-    vec3 edge2 = positions.v[point.vertices.z] - p0;
+    const Corners positions = cornersAt(point, point.geometry.positions, point.vertices, point.geometry.vertexCount);
+    vec3 p0 = positions.a;
+    vec3 edge1 = positions.b - p0;
+    vec3 edge2 = positions.c - p0;
     s.position = point.instance.objectToWorld * vec4(p0 + edge1 * point.uv.x + edge2 * point.uv.y, 1.0);
     e1 = mat3(point.instance.objectToWorld) * edge1;
     e2 = mat3(point.instance.objectToWorld) * edge2;
@@ -59,6 +59,7 @@ Surface evaluateSurface(SceneRecord scene, Hit hit, Ray ray) {
     Surface s;
     vec3 wo = -ray.direction;
     ShadingPoint point = shadingPoint(scene, hit);
+    moveTo(point, scene, ray.time);
     vec3 e1, e2;
     setGeometry(s, point, wo, e1, e2);
 

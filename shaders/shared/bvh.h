@@ -38,18 +38,23 @@ struct BvhTriangle {
 // An instance as a leaf of the top level.
 struct BvhInstance {
     mat4x3 worldToObject;
-    vec3 lo;                 // world box, already conservative (see renderer/accel/instance_table.h)
+    vec3 lo;                 // world box of all times, already conservative (see renderer/accel/instance_table.h)
     vec3 hi;
-    float extent;            // largest |coordinate| of the geometry, object space
+    float extent;            // largest |coordinate| of the geometry at any time, object space
     uint mask;               // RAY_MASK_* bit of this instance; 0: holds nothing
     uint64_t nodes;          // BvhNode[], 0 when the traversal has its own trees
-    uint64_t triangles;      // BvhTriangle[], likewise
+    uint64_t triangles;      // BvhTriangle[geometryKeys][triangleCount], likewise
+    uint firstKey;           // as InstanceRecord has them
+    uint keyCount;
+    uint geometryKeys;       // GeometryRecord::keys
+    uint triangleCount;
 };
 
 // Root of the table, at SceneRecord::bvh.
 struct BvhScene {
     uint64_t nodes;          // BvhNode[] of the top level; leaves hold one instance, `first` is its index
     uint64_t instances;      // BvhInstance[]
+    uint64_t motionKeys;     // mat4x3[], or 0
     float extent;            // largest |coordinate| of all instance boxes
     uint instanceCount;
 };

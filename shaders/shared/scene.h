@@ -11,9 +11,9 @@ HIPR_CONST uint GEOMETRY_NORMALS_FACE_VARYING = 2u; // else per vertex; normals 
 
 // One triangle mesh.
 struct GeometryRecord {
-    uint64_t positions;      // vec3[vertexCount]
+    uint64_t positions;      // vec3[keys][vertexCount]
     uint64_t triangles;      // uvec3[triangleCount]
-    uint64_t normals;        // vec3[vertexCount or 3 * triangleCount]
+    uint64_t normals;        // vec3[keys][vertexCount or 3 * triangleCount]
     uint64_t triangleFace;   // uint[triangleCount]
     uint64_t triangleSlot;   // uint16_t[triangleCount], 0 address: slot 0
     uint64_t primvars;       // PrimvarRecord[primvarCount]
@@ -21,6 +21,8 @@ struct GeometryRecord {
     uint vertexCount;
     uint primvarCount;
     uint flags;              // GEOMETRY_*
+    uint keys;               // 1: does not deform while the shutter is open; else see motion.h
+    uint pad;
 };
 
 HIPR_CONST uint INTERPOLATION_CONSTANT = 0u;
@@ -55,6 +57,8 @@ struct InstanceRecord {
     uint64_t primvars;       // PrimvarRecord[primvarCount], constant, override the geometry's
     uint objectInstance;     // which of the object's instances: index into InstancesDesc::transforms
     uint categories;         // set of categories, for light linking
+    uint firstKey;           // into SceneRecord::motionKeys: object-to-world while the shutter is open
+    uint keyCount;           // 0: stands still
 };
 
 // A ray as the trace queues hold it. tMin is 0: origins are offset off their surface.
@@ -63,6 +67,7 @@ struct Ray {
     float tMin;
     vec3 direction;          // unit length
     float tMax;
+    float time;              // of the shutter: 0 when it opens, 1 when it closes
 };
 
 // The nearest hit. u, v are the barycentric weights of vertices 1 and 2.
@@ -85,6 +90,7 @@ struct SceneRecord {
     uint64_t lightCumulative;// float[lightCount]: sums of the chances of lights, those of the tree as one
     uint64_t lightNodes;     // LightNode[lightNodeCount]: all lights but infinite ones
     uint64_t instanceLights; // uint[instanceCount]: the LIGHT_MESH of an instance, NO_INDEX: none; or 0: there is none
+    uint64_t motionKeys;     // mat4x3[], or 0
     uint64_t bvh;            // root of the GLSL traversal's structures, or 0
     uint instanceCount;
     uint lightCount;

@@ -177,6 +177,7 @@ struct TraceCounters {
 struct TraceRecord {
     uint64_t scene;          // SceneRecord
     uint64_t camera;         // CameraRecord
+    uint64_t cameraKeys;     // mat4x3[cameraKeyCount]: of points relative to CameraRecord::origin, see motion.h
     uint64_t tiles;          // TileWork[]
     uint64_t headers;        // QueueHeader[QUEUE_COUNT]
     uint64_t counters;       // TraceCounters
@@ -215,6 +216,9 @@ struct TraceRecord {
     float changeScale;       // 0: nobody asks for tileChanges
     uint pilot;              // so many first samples of each pixel only tell how many more it needs; 0: none do
     float darkest;           // the pilot takes errors relative to the radiance, or to this where that is less
+    uint cameraKeyCount;     // 0: the camera stands still
+    uint moving;             // 1: paths have times
+    float frameTime;         // of the shutter, at which first hits are found
 };
 
 // Push constants of every wavefront kernel.

@@ -6,6 +6,9 @@
 #include "sampling/filter.glsl"
 #include "shared/reproject.h"
 
+// The set of the time of a path, beside those of path.glsl.
+const uint RANDOM_TIME = 0xfffeu;
+
 void main() {
     const TraceRecord trace = TraceRecordRef(push.record).v;
     const TileWork tile = TileRef(trace.tiles).v[gl_WorkGroupID.y];
@@ -40,6 +43,11 @@ void main() {
     const vec2 film = vec2(pixel) + 0.5 + sampleFilter(trace.pixelFilter, trace.filterWidth, u.xy);
     PathRef(trace.paths).v[slot] = path;
     PathSeenRef(trace.pathSeen).v[slot].look = SEEN_NOTHING;
-    RayRef(trace.rays[0]).v[slot] = lensRay(CameraRef(trace.camera), film, uvec2(trace.width, trace.height), u.zw);
+    Ray ray = lensRay(CameraRef(trace.camera), film, uvec2(trace.width, trace.height), u.zw);
+    if (trace.moving != 0u) {
+        ray.time = sobol4(pixel, path.sampleIndex, RANDOM_TIME, trace.seed).x;
+        ray = movedRay(trace, ray);
+    }
+    RayRef(trace.rays[0]).v[slot] = ray;
     SlotRef(trace.raySlots[0]).v[slot] = slot;
 }

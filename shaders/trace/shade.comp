@@ -25,7 +25,7 @@ bool goesFree(Path path, Surface surface, vec3 wi) {
 }
 
 // Next event estimation: the light of one emitter, to be weighted against finding it by BSDF sampling.
-void sampleDirectLight(TraceRecord trace, SceneRecord scene, Path path, Surface surface, vec3 wo, vec4 u) {
+void sampleDirectLight(TraceRecord trace, SceneRecord scene, Path path, Surface surface, vec3 wo, vec4 u, float time) {
     LightSample light;
     const vec3 n = unpackLightNormal(path.lightNormal); // as rays that meet the light will have it
     if (!sampleLight(scene, surface.position, n, path.categories, u, light)) return;
@@ -36,7 +36,7 @@ void sampleDirectLight(TraceRecord trace, SceneRecord scene, Path path, Surface 
     if (light.end.instance != NO_INDEX && !goesFree(path, surface, light.wi)) return;
     const uint i = appendToQueue(trace, QUEUE_SHADOW + push.turn);
     RayRef(trace.shadowRays).v[i] =
-        Ray(offsetTowards(surface, light.wi), 0.0, light.wi, light.distance * (1.0 - 1e-4));
+        Ray(offsetTowards(surface, light.wi), 0.0, light.wi, light.distance * (1.0 - 1e-4), time);
     ShadowWorkRef(trace.shadowWork).v[i] =
         ShadowWork(contribution, path.depth > 0u ? path.slot | SHADOW_INDIRECT : path.slot, light.shadow,
                    lightMisWeight(light, bsdfPdf), path.event);
@@ -74,17 +74,23 @@ bool bounce(TraceRecord trace, inout Path path, inout Ray ray, Surface surface, 
     ++path.event;
     if (path.depth >= trace.rouletteDepth && !survives(path, roulette)) return false;
     enterMedium(path, surface, lobe, wi);
-    ray = Ray(offsetTowards(surface, wi), 0.0, wi, RAY_INFINITY);
+    ray = Ray(offsetTowards(surface, wi), 0.0, wi, RAY_INFINITY, ray.time);
     return any(greaterThan(path.throughput, vec3(0.0))) && allFinite(path.throughput);
 }
 
 // The sample lies somewhere around the pixel's centre: what shows there is the surface, continued as a plane. Where that
 // leads far away, as at silhouettes, the point at the same depth.
-void keepSeenSurface(TraceRecord trace, Path path, Surface surface) {
-    const Ray centre = rayThroughCentre(trace, path);
-    const vec3 forward = CameraRef(trace.camera).v.forward, way = surface.position - centre.origin;
-    const float level = dot(way, forward) / dot(centre.direction, forward);
-    const float onPlane = dot(way, surface.ng) / dot(centre.direction, surface.ng);
+void keepSeenSurface(TraceRecord trace, Path path, Surface surface, float time) {
+    const Ray centre = rayThroughCentre(trace, path); // of the camera that a move starts from
+    Ray then = centre;
+    then.time = time;
+    then = movedRay(trace, then);
+    const vec3 way = surface.position - then.origin;
+    vec3 forward = CameraRef(trace.camera).v.forward;
+    if (trace.cameraKeyCount > 0u)
+        forward = mat3(transformAt(trace.cameraKeys, 0u, trace.cameraKeyCount, time)) * forward;
+    const float level = dot(way, forward) / dot(then.direction, forward);
+    const float onPlane = dot(way, surface.ng) / dot(then.direction, surface.ng);
     const float distance_ = abs(onPlane - level) <= PLANE_REACH * level ? onPlane : level;
     const float coat = surface.lobeChance.x, other = surface.lobeChance.y + surface.lobeChance.w, share = coat + other;
     const vec2 alphas = (coat * surface.coatAlpha + other * surface.alpha) / max(share, 1e-6);
@@ -102,7 +108,7 @@ bool scatterInMedium(TraceRecord trace, MediumRecord medium, inout Path path, in
     if (!survives(path, u.z)) return false;
     ++path.event;
     const vec3 direction = samplePhase(ray.direction, medium.anisotropy, u.xy);
-    ray = Ray(ray.origin + ray.direction * ray.tMax, 0.0, direction, RAY_INFINITY);
+    ray = Ray(ray.origin + ray.direction * ray.tMax, 0.0, direction, RAY_INFINITY, ray.time);
     path.bsdfPdf = -1.0; // no light was sampled here
     return true;
 }
@@ -144,7 +150,7 @@ bool scatter(TraceRecord trace, SceneRecord scene, inout Path path, inout Ray ra
     if (path.depth == 0u) {
         PathRef(trace.paths).v[path.slot].alpha = 1.0;
         PathRef(trace.paths).v[path.slot].albedo = surface.albedo;
-        if (keepsSeen(trace, path)) keepSeenSurface(trace, path, surface);
+        if (keepsSeen(trace, path)) keepSeenSurface(trace, path, surface, ray.time);
     }
     addEmission(trace, scene, path, ray, hit, surface.emission);
     if (path.depth >= trace.maxDepth) return false;
@@ -152,7 +158,7 @@ bool scatter(TraceRecord trace, SceneRecord scene, inout Path path, inout Ray ra
     path.categories = InstanceRef(scene.instances).v[hit.instance].categories;
     path.lightNormal = surface.openPbr || surface.glass > 0.0 ? 0u : packLightNormal(surface.ng);
     const vec3 wo = -ray.direction;
-    sampleDirectLight(trace, scene, path, surface, wo, u);
+    sampleDirectLight(trace, scene, path, surface, wo, u, ray.time);
     return bounce(trace, path, ray, surface, wo, u.w / surface.opacity); // uniform again
 }
 

@@ -51,7 +51,8 @@ float firstCollision(TraceRecord trace, SceneRecord scene, Path path, Ray ray, f
 }
 
 // Next event estimation at a point of a volume.
-void sampleVolumeLight(TraceRecord trace, SceneRecord scene, Path path, vec3 position, vec3 direction, float anisotropy) {
+void sampleVolumeLight(TraceRecord trace, SceneRecord scene, Path path, vec3 position, vec3 direction, float time,
+                       float anisotropy) {
     LightSample light;
     const vec4 u = randomVector(trace, path, RANDOM_LIGHT);
     if (!sampleLight(scene, position, vec3(0.0), path.categories, u, light)) return;
@@ -61,7 +62,7 @@ void sampleVolumeLight(TraceRecord trace, SceneRecord scene, Path path, vec3 pos
     // Surfaces that emit are found through homogeneous media by the path alone, as in shade.comp.
     if (light.end.instance != NO_INDEX && (path.medium & MEDIUM_KIND) != MEDIUM_NONE) return;
     const uint i = appendToQueue(trace, QUEUE_SHADOW + push.turn);
-    RayRef(trace.shadowRays).v[i] = Ray(position, 0.0, light.wi, light.distance * (1.0 - 1e-4));
+    RayRef(trace.shadowRays).v[i] = Ray(position, 0.0, light.wi, light.distance * (1.0 - 1e-4), time);
     ShadowWorkRef(trace.shadowWork).v[i] =
         ShadowWork(contribution, path.depth > 1u ? path.slot | SHADOW_INDIRECT : path.slot, light.shadow,
                    lightMisWeight(light, phase), path.event);
@@ -104,14 +105,14 @@ bool scatterInVolume(TraceRecord trace, SceneRecord scene, inout Path path, inou
     path.categories = VolumeRef(scene.volumes).v[index].categories;
     path.lightNormal = 0u;
     const float anisotropy = VolumeRef(scene.volumes).v[index].anisotropy;
-    sampleVolumeLight(trace, scene, path, position, ray.direction, anisotropy);
+    sampleVolumeLight(trace, scene, path, position, ray.direction, ray.time, anisotropy);
     if (!survives(path, u.z)) return false;
     const vec3 wi = samplePhase(ray.direction, anisotropy, u.xy);
     path.bsdfPdf = phaseDensity(dot(ray.direction, wi), anisotropy);
     path.history = extendHistory(path.history, SCATTER_DIFFUSE, path.depth);
     if (path.depth == 0u) path.depth = 1u;
     ++path.event;
-    ray = Ray(position, 0.0, wi, RAY_INFINITY);
+    ray = Ray(position, 0.0, wi, RAY_INFINITY, ray.time);
     return allFinite(path.throughput);
 }
 

@@ -73,7 +73,7 @@ public:
         build.triangles = mesh.view.triangleCount;
         build.seconds = timed([&] {
                             _traversal->setGeometry(0, &mesh.view);
-                            _traversal->setInstances({mesh.instance});
+                            _traversal->setInstances({{mesh.instance}, {}});
                             _traversal->commit();
                         }).clock;
         build.bytes = bytesHeld(device, *_traversal) - before;

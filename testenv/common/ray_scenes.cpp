@@ -11,7 +11,7 @@ namespace {
 constexpr float PI = 3.14159265358979f;
 
 gpu::Ray rayFrom(const glm::vec3& origin, const glm::vec3& direction) {
-    return {origin, 0.0f, direction, std::numeric_limits<float>::infinity()};
+    return {origin, 0.0f, direction, std::numeric_limits<float>::infinity(), 0.0f};
 }
 
 glm::vec3 toWorld(const gpu::InstanceRecord& i, const glm::vec3& p) {
@@ -93,6 +93,34 @@ glm::dmat4 randomPlacement(Random& random, float half, bool distorted) {
         m, glm::dvec3(random.between(0.2f, 2.0f), random.between(0.2f, 2.0f), random.between(0.2f, 2.0f)));
     m = glm::rotate(m, double(random.between(0.0f, 2.0f * PI)), glm::dvec3(random.direction()));
     return random.below(2) ? glm::scale(m, glm::dvec3(-1.0, 1.0, 1.0)) : m;
+}
+
+void deform(TriangleMesh& mesh, uint32_t keys, float size, uint32_t seed) {
+    Random random(seed);
+    const size_t vertices = mesh.positions.size();
+    for (mesh.keys = 1; mesh.keys < keys; ++mesh.keys)
+        for (size_t i = 0; i < vertices; ++i)
+            mesh.positions.push_back(mesh.positions[i] + random.point(size));
+}
+
+void setMoving(RayScene& scene, uint32_t keys, Random& random, float half) {
+    gpu::InstanceRecord& instance = scene.instances.back();
+    instance.firstKey = uint32_t(scene.keys.size());
+    instance.keyCount = keys;
+    glm::dmat4 place = glm::dmat4(glm::mat4(instance.objectToWorld));
+    for (uint32_t k = 0; k < keys; ++k) {
+        scene.keys.push_back(glm::mat4x3(glm::mat4(place)));
+        place = glm::translate(glm::dmat4(1.0), glm::dvec3(random.point(half))) *
+                glm::rotate(place, double(random.between(0.0f, 0.5f)), glm::dvec3(random.direction()));
+    }
+}
+
+void spreadOverTime(std::vector<gpu::Ray>& rays, uint32_t seed) {
+    Random random(seed);
+    for (gpu::Ray& ray : rays)
+        ray.time = random.between(0.0f, 1.0f);
+    rays[0].time = 0.0f;
+    rays[1].time = 1.0f;
 }
 
 std::vector<gpu::Ray> randomRays(uint32_t count, float half, uint32_t seed) {

@@ -14,13 +14,17 @@
 namespace hipr::test {
 
 struct TriangleMesh {
-    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> positions; ///< of all keys, one behind the other
     std::vector<glm::uvec3> triangles;
+    uint32_t keys = 1;
+
+    uint32_t vertexCount() const { return uint32_t(positions.size()) / keys; }
 };
 
 struct RayScene {
     std::vector<TriangleMesh> meshes;
     std::vector<gpu::InstanceRecord> instances;
+    std::vector<glm::mat4x3> keys{}; ///< of moving instances
 };
 
 class Random {
@@ -46,6 +50,13 @@ TriangleMesh grid(uint32_t cells, float half, int axis);
 gpu::InstanceRecord placed(uint32_t geometry, const glm::dmat4& objectToWorld, uint32_t flags = 0);
 /// Random rotation, translation and, when asked, non-uniform scale and mirroring.
 glm::dmat4 randomPlacement(Random& random, float half, bool distorted);
+
+/// Adds `keys` - 1 further keys, in which every vertex lies up to `size` away on each axis.
+void deform(TriangleMesh& mesh, uint32_t keys, float size, uint32_t seed);
+/// Gives the last instance that many random keys.
+void setMoving(RayScene& scene, uint32_t keys, Random& random, float half);
+/// Gives every ray a random time, the first ones the ends of the shutter.
+void spreadOverTime(std::vector<gpu::Ray>& rays, uint32_t seed);
 
 /// Random rays around a scene of half width `half`.
 std::vector<gpu::Ray> randomRays(uint32_t count, float half, uint32_t seed);

@@ -43,7 +43,7 @@ TraceScene::TraceScene(TraversalKind kind, Device& device)
 TraceScene::TraceScene(TraversalKind kind, const RayScene& scene, Device& device) : TraceScene(kind, device) {
     for (uint32_t i = 0; i < scene.meshes.size(); ++i)
         setMesh(i, scene.meshes[i]);
-    setInstances(scene.instances);
+    setInstances(scene.instances, scene.keys);
     commit();
 }
 
@@ -65,12 +65,13 @@ void TraceScene::send(uint32_t slot, bool sameTopology) {
     Slot& s = _slots.at(slot);
     s.positions = _device.createFrom(s.mesh.positions.data(), s.mesh.positions.size(), "test");
     const GeometryView view{s.mesh.positions.data(),
-                            uint32_t(s.mesh.positions.size() - 1),
+                            uint32_t(s.mesh.positions.size() - 1) / s.mesh.keys,
                             s.mesh.triangles.data(),
                             uint32_t(s.mesh.triangles.size()),
                             s.positions.address(),
                             s.triangles.address(),
-                            sameTopology};
+                            sameTopology,
+                            s.mesh.keys};
     _traversal->setGeometry(slot, &view);
 }
 
@@ -79,9 +80,11 @@ void TraceScene::removeMesh(uint32_t slot) {
     _slots.erase(slot);
 }
 
-void TraceScene::setInstances(const std::vector<gpu::InstanceRecord>& instances) {
+void TraceScene::setInstances(const std::vector<gpu::InstanceRecord>& instances,
+                              const std::vector<glm::mat4x3>& keys) {
     _instances = instances;
-    _traversal->setInstances(instances);
+    _keyBuffer = _device.createFrom(keys.data(), keys.size(), "test");
+    _traversal->setInstances({instances, keys, _keyBuffer.address()});
 }
 
 void TraceScene::commit() {
@@ -138,6 +141,13 @@ std::vector<uint32_t> TraceScene::occluded(const std::vector<gpu::Ray>& rays, ui
 
 namespace {
 
+glm::vec3 vertexAt(const TriangleMesh& mesh, uint32_t vertex, float time) {
+    if (mesh.keys == 1) return mesh.positions[vertex];
+    const gpu::KeyTime at = gpu::keyTime(time, mesh.keys);
+    const glm::vec3* key = &mesh.positions[at.first * mesh.vertexCount() + vertex];
+    return gpu::mixKeys(key[0], key[mesh.vertexCount()], at.weight);
+}
+
 gpu::Hit bruteForceRay(const RayScene& scene, const InstanceTable& table, const gpu::Ray& ray,
                        uint32_t mask) {
     gpu::Hit best{gpu::NO_INDEX, gpu::NO_INDEX, ray.tMax, 0.0f, 0.0f};
@@ -148,16 +158,18 @@ gpu::Hit bruteForceRay(const RayScene& scene, const InstanceTable& table, const 
         if (!(record.mask & mask)) continue;
         float entry, exit;
         gpu::boxInterval(world, record.lo, record.hi, entry, exit);
-        const glm::vec3 origin = gpu::mapPoint(record.worldToObject, ray.origin);
-        const glm::vec3 direction = gpu::mapDirection(record.worldToObject, ray.direction);
+        const glm::mat4x3 toObject = worldToObject(record, table.keys.data(), ray.time);
+        const glm::vec3 origin = gpu::mapPoint(toObject, ray.origin);
+        const glm::vec3 direction = gpu::mapDirection(toObject, ray.direction);
         const gpu::TriangleRay triangleRay = gpu::triangleRay(origin, direction);
         const gpu::BoxRay box = gpu::boxRay(origin, direction, record.extent);
         const TriangleMesh& mesh = scene.meshes[scene.instances[i].geometry];
         for (uint32_t p = 0; p < mesh.triangles.size(); ++p) {
             const glm::uvec3 k = mesh.triangles[p];
             float t, u, v;
-            if (gpu::canonicalHit(triangleRay, box, mesh.positions[k.x], mesh.positions[k.y],
-                                  mesh.positions[k.z], entry, exit, t, u, v) &&
+            if (gpu::canonicalHit(triangleRay, box, vertexAt(mesh, k.x, ray.time),
+                                  vertexAt(mesh, k.y, ray.time), vertexAt(mesh, k.z, ray.time), entry, exit,
+                                  t, u, v) &&
                 t > ray.tMin && gpu::before(t, i, p, best.t, best.instance, best.primitive))
                 best = {i, p, t, u, v};
         }
@@ -168,12 +180,14 @@ gpu::Hit bruteForceRay(const RayScene& scene, const InstanceTable& table, const 
 } // namespace
 
 std::vector<gpu::Hit> bruteForce(const RayScene& scene, const std::vector<gpu::Ray>& rays, uint32_t mask) {
-    const InstanceTable table = makeInstanceTable(scene.instances, [&](uint32_t slot) {
-        Bounds b;
-        for (const glm::uvec3& t : scene.meshes[slot].triangles)
-            for (int k = 0; k < 3; ++k)
-                b.add(scene.meshes[slot].positions[t[k]]);
-        return b;
+    const InstanceTable table = makeInstanceTable({scene.instances, scene.keys}, [&](uint32_t slot) {
+        const TriangleMesh& mesh = scene.meshes[slot];
+        SlotShape shape{{}, mesh.keys, uint32_t(mesh.triangles.size())};
+        for (uint32_t key = 0; key < mesh.keys; ++key)
+            for (const glm::uvec3& t : mesh.triangles)
+                for (int k = 0; k < 3; ++k)
+                    shape.bounds.add(mesh.positions[key * mesh.vertexCount() + t[k]]);
+        return shape;
     });
     std::vector<gpu::Hit> hits(rays.size());
     tbb::parallel_for(tbb::blocked_range<size_t>(0, rays.size(), 256), [&](const auto& range) {

@@ -27,7 +27,8 @@ public:
     /// Same triangles, other positions.
     void movePoints(uint32_t slot, const std::vector<glm::vec3>& positions);
     void removeMesh(uint32_t slot);
-    void setInstances(const std::vector<gpu::InstanceRecord>& instances);
+    void setInstances(const std::vector<gpu::InstanceRecord>& instances,
+                      const std::vector<glm::mat4x3>& keys = {});
     void commit();
 
     std::vector<gpu::Hit> nearest(const std::vector<gpu::Ray>& rays, uint32_t mask = gpu::RAY_MASK_ALL);
@@ -49,7 +50,7 @@ private:
     std::map<uint32_t, Slot> _slots;
     double _seconds = 0.0;
     std::vector<gpu::InstanceRecord> _instances;
-    Buffer _geometryBuffer, _instanceBuffer, _scene;
+    Buffer _geometryBuffer, _instanceBuffer, _keyBuffer, _scene;
 };
 
 /// The definition: the best canonical hit among all triangles of all instances, one by one.

@@ -6,7 +6,37 @@ namespace hipr::test {
 /// Why some rows are skipped.
 static const char* const animationUntracked = "it does not follow edits of skeletal animations and bindings";
 
-Rows timeRows() {
+/// While the shutter is open for what frame 5 of the scene shows.
+static Rows motionRows() {
+    const std::string anim = "/World/Anim/";
+    const Edit open = all({time(5), in("/Camera", "double shutter:open = -0.5\ndouble shutter:close = 0.5")});
+    return {
+        {"ShutterOpens", in("/Camera", "double shutter:open = -0.5\ndouble shutter:close = 0.5"), time(5)},
+        {"ShutterOpensLater", in("/Camera", "double shutter:open = 0.2"), open},
+        {"ShutterCloses", in("/Camera", "double shutter:close = -0.5"), open},
+        {"ShutterAndTime", time(6), open},
+        {"MotionOfATransform",
+         in(anim + "Mover", "double3 xformOp:translate.timeSamples = { 4: (0.3, 0.6, 0), 5.25: (0.5, 0.5, "
+                            "0), 6: (0.9, 0.5, 0) }"),
+         open},
+        {"MotionEnds", in(anim + "Mover", "double3 xformOp:translate.timeSamples = { 4: (0.8, 0.6, 0.2) }"),
+         open},
+        {"MotionOfPoints",
+         in(anim + "Bender",
+            "point3f[] points.timeSamples = { 4: [(1.2, 0.2, 0), (1.8, 0.2, 0), (1.8, 0.8, "
+            "0), (1.2, 0.8, 0)], 6: [(1.1, 0.1, 0), (1.8, 0.2, 0), (1.9, 0.9, 0), (1.2, 0.8, 0)] }"),
+         open},
+        {"MotionOfAnInstancer",
+         in("/World/Inst/Cloud",
+            "point3f[] positions.timeSamples = { 4: [(-0.6, -0.2, 0), (-0.2, 0.2, 0), (0.2, -0.2, 0), (0.6, "
+            "0.2, 0)], 6: [(-0.5, -0.3, 0), (-0.3, 0.3, 0), (0.1, -0.1, 0), (0.5, 0.1, 0)] }"),
+         open},
+        {"MotionOfTheCamera",
+         in("/Camera", "double3 xformOp:translate.timeSamples = { 4: (4, 2, 12), 6: (3.5, 2.2, 11) }"), open},
+    };
+}
+
+static Rows animationRows() {
     const std::string anim = "/World/Anim/";
     return {
         {"TimeLast", time(10)},
@@ -70,6 +100,13 @@ int[] protoIndices.timeSamples = { 1: [0, 0], 10: [0] })")},
         {"SkinUnbound", removeProperty(anim + "Arm.skel:skeleton"), time(8), true, animationUntracked},
         {"SkinHidden", in(anim + "Arm", R"(token visibility = "invisible")")},
     };
+}
+
+Rows timeRows() {
+    Rows rows = animationRows();
+    const Rows more = motionRows();
+    rows.insert(rows.end(), more.begin(), more.end());
+    return rows;
 }
 
 } // namespace hipr::test

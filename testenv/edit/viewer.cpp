@@ -158,10 +158,12 @@ void Viewer::tick(const UsdStageRefPtr& stage, const View& view) {
         _impl->imaging =
             std::make_unique<UsdImagingDelegate>(_impl->index.get(), SdfPath::AbsoluteRootPath());
         _impl->show(view);
+        _impl->imaging->SetCameraForSampling(SdfPath(view.camera)); // whose shutter says what moves
         _impl->imaging->Populate(stage->GetPseudoRoot());
         _impl->stage = stage;
     }
     _impl->show(view);
+    _impl->imaging->SetCameraForSampling(SdfPath(view.camera));
     _impl->imaging->SetTime(UsdTimeCode(view.time));
     _impl->imaging->ApplyPendingUpdates();
     HdTaskSharedPtrVector tasks{_impl->task};

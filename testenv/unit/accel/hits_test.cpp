@@ -162,7 +162,7 @@ TEST_P(Hits, OcclusionIsHavingANearestHit) {
 TEST_P(Hits, IntervalEnds) {
     const RayScene scene{{grid(1, 1.0f, 2)}, {placed(0, glm::dmat4(1.0))}};
     auto ray = [](float tMin, float tMax) {
-        return gpu::Ray{{0.25f, 0.125f, -2.0f}, tMin, {0.0f, 0.0f, 1.0f}, tMax};
+        return gpu::Ray{{0.25f, 0.125f, -2.0f}, tMin, {0.0f, 0.0f, 1.0f}, tMax, 0.0f};
     };
     const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
     std::vector<gpu::Ray> rays = {ray(0, inf), ray(0, 2),       ray(0, 1.9999f),

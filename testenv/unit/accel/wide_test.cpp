@@ -13,12 +13,13 @@ namespace {
 
 GeometryView viewOf(const TriangleMesh& mesh) {
     return {mesh.positions.data(),
-            uint32_t(mesh.positions.size()),
+            mesh.vertexCount(),
             mesh.triangles.data(),
             uint32_t(mesh.triangles.size()),
             0,
             0,
-            false};
+            false,
+            mesh.keys};
 }
 
 /// Counts how often each triangle is in a leaf, and expects its corners there and its box within all above.
@@ -107,7 +108,10 @@ struct Walked {
     explicit Walked(const RayScene& s) : scene(s), trees(s.meshes.size()) {
         for (size_t i = 0; i < trees.size(); ++i)
             trees[i].build(viewOf(s.meshes[i]));
-        table = makeInstanceTable(s.instances, [&](uint32_t slot) { return trees[slot].bounds(); });
+        table = makeInstanceTable({s.instances, s.keys}, [&](uint32_t slot) {
+            return SlotShape{trees[slot].bounds(), s.meshes[slot].keys,
+                             uint32_t(s.meshes[slot].triangles.size())};
+        });
         std::vector<Bounds> boxes;
         std::vector<uint32_t> ids;
         for (uint32_t i = 0; i < table.records.size(); ++i) {
@@ -120,7 +124,8 @@ struct Walked {
     void expectDefinition(const WideWalk& walk, const std::vector<gpu::Ray>& rays) const {
         const FlushDenormals flush;
         const uint32_t count = uint32_t(rays.size());
-        const WideScene wide{table.records.data(), uint32_t(table.records.size()), table.extent, top.units()};
+        const WideScene wide{table.records.data(), uint32_t(table.records.size()), table.extent, top.units(),
+                             table.keys.data()};
         std::vector<gpu::Hit> hits(count);
         std::vector<uint32_t> blocked(count);
         walk.nearest(wide, gpu::RAY_MASK_ALL, rays.data(), count, hits.data());
@@ -157,6 +162,20 @@ TEST(WideWalk, EveryCompilationGivesTheDefinition) {
         Walked(scene).expectDefinition(*walk, segments);
         Walked(alone).expectDefinition(*walk, aimedRays(alone, 20000, 0.3f, 6));
     }
+}
+
+TEST(WideWalk, EveryCompilationKnowsTheTime) {
+    RayScene scene{{soup(40, 0.5f, 0.3f, 1), bumpySphere(7, 0.5f)}, {}};
+    deform(scene.meshes[1], 3, 0.05f, 8);
+    Random random(2);
+    for (uint32_t i = 0; i < 20; ++i) {
+        scene.instances.push_back(placed(i % 2, randomPlacement(random, 2.0f, i % 2)));
+        if (i % 3) setMoving(scene, 2 + i % 3, random, 0.5f);
+    }
+    auto rays = aimedRays(scene, 20000, 3.0f, 4);
+    spreadOverTime(rays, 5);
+    for (const WideWalk* walk : wideWalks())
+        Walked(scene).expectDefinition(*walk, rays);
 }
 
 } // namespace
