@@ -57,7 +57,9 @@ public:
         : _material(material), _network(network) {}
 
     bool surface(Node const& node, hipr::MaterialDesc& desc);
-    /// Says that the surface's displacement is not used.
+    /// Sets what the node at the end of a displacement network says; false if it is none that is known.
+    bool displacement(Node const& node, hipr::Displacement& displacement);
+    /// Says that a surface's displacement is not used, where it has one.
     void complainOfDisplacement(Node const& node) const;
 
 private:
@@ -173,7 +175,45 @@ bool Translator::surface(Node const& node, hipr::MaterialDesc& desc) {
 void Translator::complainOfDisplacement(Node const& node) const {
     const auto height = numbers("displacement", param(node, "displacement"));
     if (upstream(node, "displacement").node || (height && height->x != 0.f)) {
-        complain("displacement is not supported and has no effect");
+        complain("the displacement of its surface has no effect, for outputs:displacement is not connected");
+    }
+}
+
+bool Translator::displacement(Node const& node, hipr::Displacement& displacement) {
+    std::string const& id = node.identifier.GetString();
+    const bool scaled = id == "ND_displacement_float" || id == "ND_displacement_vector3";
+    if (!scaled && id != "UsdPreviewSurface" && id != "ND_UsdPreviewSurface_surfaceshader") {
+        return false;
+    }
+    displacement.vector = id == "ND_displacement_vector3";
+    GraphValue amount = value(node, hipr::MtlxInput("displacement"));
+    if (scaled) {
+        amount = _build.multiply(amount, value(node, hipr::MtlxInput("scale", 1.f)));
+    }
+    displacement.amount.channel = displacement.vector ? hipr::Channel::Rgb : hipr::Channel::R;
+    displacement.amount = _build.input(amount, displacement.amount);
+    if (displacement.amount.source == hipr::MaterialInput::Source::Graph) {
+        displacement.graph = _build.graph();
+    }
+    return true;
+}
+
+/// The node that a network ends in. Hosts put it last; `terminals` also lists those of the other networks.
+Node const& terminalOf(HdMaterialNetworkMap const& networks, HdMaterialNetwork const& network) {
+    const auto found = std::find_if(network.nodes.rbegin(), network.nodes.rend(), [&](Node const& node) {
+        return std::find(networks.terminals.begin(), networks.terminals.end(), node.path) !=
+               networks.terminals.end();
+    });
+    return found == network.nodes.rend() ? network.nodes.back() : *found;
+}
+
+void setDisplacement(SdfPath const& materialPath, HdMaterialNetworkMap const& networks,
+                     HdMaterialNetwork const& network, hipr::Displacement& displacement) {
+    Node const& terminal = terminalOf(networks, network);
+    if (!Translator(materialPath, network).displacement(terminal, displacement)) {
+        warnOnce(materialPath.GetString(), "its displacement <" + terminal.path.GetString() + "> is a '" +
+                                               terminal.identifier.GetString() +
+                                               "' node, which is not supported and has no effect");
     }
 }
 
@@ -189,13 +229,7 @@ std::optional<hipr::MaterialDesc> materialDesc(SdfPath const& materialPath,
         return std::nullopt;
     }
     HdMaterialNetwork const& network = surface->second;
-    const auto isTerminal = [&](Node const& node) {
-        return std::find(networks.terminals.begin(), networks.terminals.end(), node.path) !=
-               networks.terminals.end();
-    };
-    // Hosts put the terminal last; `terminals` also lists those of the other networks.
-    const auto found = std::find_if(network.nodes.rbegin(), network.nodes.rend(), isTerminal);
-    Node const& terminal = found == network.nodes.rend() ? network.nodes.back() : *found;
+    Node const& terminal = terminalOf(networks, network);
     if (TfStringEndsWith(terminal.identifier.GetString(), "<glslfx>")) {
         // UsdImaging's stand-in for models drawn as cards. Without textures it shows displayColor, as meshes
         // do.
@@ -214,7 +248,12 @@ std::optional<hipr::MaterialDesc> materialDesc(SdfPath const& materialPath,
                      "' node, which is not supported; displayColor is shown instead");
         return std::nullopt;
     }
-    translator.complainOfDisplacement(terminal);
+    const auto displacement = networks.map.find(HdMaterialTerminalTokens->displacement);
+    if (displacement == networks.map.end() || displacement->second.nodes.empty()) {
+        translator.complainOfDisplacement(terminal);
+    } else {
+        setDisplacement(materialPath, networks, displacement->second, desc.displacement);
+    }
     return desc;
 }
 

@@ -14,6 +14,23 @@ enum class OpacityMode : uint32_t { Transparent, Presence };
 
 enum class MaterialModel : uint32_t { UsdPreviewSurface, OpenPbr };
 
+/// How far a material moves the surface, in object space, before anything else is done with it. Evaluated on the host
+/// at the corners of triangles, where points of the surface in world space are taken for those in object
+/// space, and primvars of instances do not count.
+struct Displacement {
+    MaterialGraph graph; ///< what `amount` refers to if its source is a graph
+    /// A distance along the normal or, for a vector, along the tangent (of the primvar `st`), the bitangent and
+    /// the normal.
+    MaterialInput amount{MaterialInput::Source::Constant, glm::vec4(0.f), Channel::R, {}, {}};
+    bool vector = false;
+    /// Whether nothing is moved.
+    bool none() const {
+        return amount.source == MaterialInput::Source::Constant && glm::vec3(amount.constant) == glm::vec3(0.f);
+    }
+    auto members() const { return std::tie(graph, amount, vector); }
+    bool operator==(const Displacement& o) const { return members() == o.members(); }
+};
+
 /// A material of either model; the inputs of the other one are ignored.
 struct MaterialDesc {
     std::string name;
@@ -43,10 +60,12 @@ struct MaterialDesc {
     MaterialInput occlusion{MaterialInput::Source::Constant, glm::vec4(1.f), Channel::R, {}, {}};
     bool useSpecularWorkflow = false;
     OpacityMode opacityMode = OpacityMode::Transparent;
+
+    Displacement displacement; ///< of either model
     auto members() const {
         return std::tie(name, model, graph, openPbr, diffuseColor, emissiveColor, specularColor, metallic,
                         roughness, clearcoat, clearcoatRoughness, opacity, opacityThreshold, ior, normal,
-                        occlusion, useSpecularWorkflow, opacityMode);
+                        occlusion, useSpecularWorkflow, opacityMode, displacement);
     }
     bool operator==(const MaterialDesc& o) const { return members() == o.members(); }
 };

@@ -27,7 +27,9 @@ bool hasTranslucency(const TriangleMesh& mesh) {
     return false;
 }
 
-uint64_t bytesOf(const TriangleMesh& mesh) {
+} // namespace
+
+uint64_t hostBytesOf(const TriangleMesh& mesh) {
     uint64_t bytes = mesh.positions.size() * sizeof(glm::vec3) + mesh.triangles.size() * sizeof(glm::uvec3) +
                      mesh.triangleFace.size() * sizeof(uint32_t) +
                      mesh.triangleSlot.size() * sizeof(uint16_t) + mesh.normals.size() * sizeof(glm::vec3);
@@ -37,8 +39,6 @@ uint64_t bytesOf(const TriangleMesh& mesh) {
         bytes += (key.positions.size() + key.normals.size()) * sizeof(glm::vec3);
     return bytes;
 }
-
-} // namespace
 
 Change GeometryTable::set(GeometryId id, std::shared_ptr<const TriangleMesh> mesh) {
     auto [it, added] = _entries.try_emplace(id);
@@ -196,7 +196,7 @@ void GeometryTable::submit(Entry& entry, Traversal& traversal) {
 uint64_t GeometryTable::hostBytes() const {
     uint64_t bytes = 0;
     for (const auto& [id, entry] : _entries)
-        bytes += bytesOf(*entry.mesh);
+        bytes += hostBytesOf(*entry.mesh);
     return bytes;
 }
 

@@ -13,6 +13,9 @@
 
 namespace hipr {
 
+/// Host memory of a mesh.
+uint64_t hostBytesOf(const TriangleMesh& mesh);
+
 struct Geometry {
     uint32_t slot = 0; ///< index of its GeometryRecord and its slot in the traversal
     std::shared_ptr<const TriangleMesh> mesh;

@@ -71,10 +71,11 @@ void mergeElements(ChangedSet& changed) {
 } // namespace
 
 GpuScene::GpuScene(Device& device, AssetReader assets)
-    : _device(device), _categories(device),
-      _textures(device, std::move(assets), ColorManager::create(device.messages())),
-      _materials(device, _names, _textures), _lights(device, _textures, _categories),
-      _geometries(device, _names), _volumes(device), _objects(device, _names, _categories),
+    : _device(device), _categories(device), _color(ColorManager::create(device.messages())),
+      _textures(device, assets, _color), _materials(device, _names, _textures),
+      _lights(device, _textures, _categories), _geometries(device, _names),
+      _displacement(std::move(assets), _color, device.messages()), _volumes(device),
+      _objects(device, _names, _categories),
       _meshLights(device),
       _record(device.createBuffer(sizeof(gpu::SceneRecord), MemoryUse::Device, "Scene")) {}
 
@@ -89,11 +90,16 @@ ChangedSet GpuScene::apply(const std::vector<SceneEdit::Op>& ops) {
     const std::vector<bool> skip = superseded(ops);
     for (size_t i = 0; i < ops.size(); ++i)
         if (!skip[i]) std::visit([&](const auto& o) { apply(o, changed); }, ops[i]);
+    _displacement.update(_geometries, _objects, changed);
     mergeElements(changed);
     return changed;
 }
 
 void GpuScene::apply(const SceneEdit::GeometryOp& op, ChangedSet& changed) {
+    if (!op.mesh)
+        _displacement.removeGeometry(op.id);
+    else if (_displacement.setGeometry(op.id, op.mesh))
+        return;
     const Change change = op.mesh ? _geometries.set(op.id, op.mesh)
                                   : (_geometries.remove(op.id) ? Change::Removed : Change::None);
     if (change != Change::None) _objects.geometryChanged(op.id, change, changed);
@@ -133,6 +139,7 @@ void GpuScene::apply(const SceneEdit::MaterialOp& op, ChangedSet& changed) {
         if (it == _materialDescs.end()) return;
         _materialDescs.erase(it);
         _materials.remove(op.id);
+        _displacement.removeMaterial(op.id);
         changed.elements.push_back({op.id, Change::Removed});
         _tracedChanged = true;
         return;
@@ -140,6 +147,7 @@ void GpuScene::apply(const SceneEdit::MaterialOp& op, ChangedSet& changed) {
     if (it != _materialDescs.end() && it->second == *op.desc) return;
     const bool emitted = _materials.emissive(op.id);
     _materials.set(op.id, *op.desc);
+    _displacement.setMaterial(op.id, *op.desc);
     Change change = it == _materialDescs.end() ? Change::Added : Change::Material;
     if (emitted || _materials.emissive(op.id)) change = change | Change::Emission;
     _materialDescs[op.id] = *op.desc;
@@ -166,6 +174,7 @@ void GpuScene::apply(const SceneEdit::LightOp& op, ChangedSet& changed) {
 }
 
 void GpuScene::apply(const SceneEdit::ObjectOp& op, ChangedSet& changed) {
+    _displacement.objectsChanged();
     if (op.desc)
         _objects.setObject(op.id, *op.desc, changed);
     else
@@ -192,6 +201,9 @@ bool GpuScene::setOptions(const SceneOptions& options) {
                 _lights.remove(id);
         }
     _options = options;
+    _displacement.setEnabled(options.materials);
+    ChangedSet unused; // a setting changed, with all that follows
+    _displacement.update(_geometries, _objects, unused);
     return true;
 }
 

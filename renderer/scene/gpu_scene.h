@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "renderer/api/settings.h"
+#include "renderer/scene/displacement_table.h"
 #include "renderer/scene/mesh_lights.h"
 #include "renderer/scene/object_table.h"
 #include "renderer/shading/categories.h"
@@ -77,7 +78,7 @@ public:
     /// The SceneRecord, once committed.
     VkDeviceAddress address() const { return _record.address(); }
     uint32_t flags() const { return _hostRecord.flags; } ///< SCENE_*
-    uint64_t meshHostBytes() const { return _geometries.hostBytes(); }
+    uint64_t meshHostBytes() const { return _geometries.hostBytes() + _displacement.hostBytes(); }
     uint64_t splatHostBytes() const { return _splats.hostBytes(); }
     uint64_t volumeHostBytes() const { return _volumes.hostBytes(); }
     uint64_t traversalHostBytes() const { return _traversal->hostBytes(); }
@@ -98,10 +99,12 @@ private:
     Device& _device;
     NameTable _names;
     CategoryTable _categories;
+    std::shared_ptr<const ColorManager> _color;
     TextureStore _textures;
     MaterialTable _materials;
     LightTable _lights;
     GeometryTable _geometries;
+    DisplacementTable _displacement;
     SplatTable _splats;
     VolumeTable _volumes;
     ObjectTable _objects;

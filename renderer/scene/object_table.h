@@ -33,6 +33,11 @@ public:
     void geometryChanged(GeometryId id, Change change, ChangedSet& changed);
     void splatsChanged(SplatsId id, ChangedSet& changed);
     void volumeChanged(VolumeId id, Change change, ChangedSet& changed);
+    /// Calls `visit` with the description of every object, by id.
+    template <class Visitor> void forObjects(Visitor&& visit) const {
+        for (const auto& [id, entry] : _entries)
+            if (entry.desc) visit(*entry.desc);
+    }
     /// Whether any change reported since the last commit() is of an object that paths meet.
     bool tracedChanged() const { return _tracedChanged; }
 

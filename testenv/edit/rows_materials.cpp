@@ -13,6 +13,10 @@ namespace {
 /// Why some rows are skipped.
 const char* const materialIsLost = "it drops a material whose nodes come or go, and populates it no more";
 
+/// For a material: its surface displaces, too.
+const char* const displaced =
+    "token outputs:displacement.connect = </World/Looks/Glossy/Surface.outputs:displacement>";
+
 const std::string geo = "/World/Geo/", looks = "/World/Looks/", glossy = looks + "Glossy/Surface";
 
 Rows bindings() {
@@ -98,7 +102,13 @@ Rows inputs() {
         {"InputEmissiveOff", in(looks + "Lamp/Surface", "color3f inputs:emissiveColor = (0, 0, 0)")},
         {"InputNormal", in(looks + "Textured/Surface", "normal3f inputs:normal = (0.5, 0, 0.8)"), {}, false},
         {"InputOcclusion", in(glossy, "float inputs:occlusion = 0.2"), {}, false},
-        {"InputDisplacement", in(glossy, "float inputs:displacement = 0.2"), {}, false},
+        {"InputDisplacementOfNoOutput", in(glossy, "float inputs:displacement = 0.2"), {}, false},
+        {"InputDisplacement", in(glossy, "float inputs:displacement = 0.2"),
+         all({in(glossy, "float inputs:displacement = 0.1"), in(looks + "Glossy", displaced)})},
+        {"InputDisplacementZero", in(glossy, "float inputs:displacement = 0"),
+         all({in(glossy, "float inputs:displacement = 0.1"), in(looks + "Glossy", displaced)})},
+        {"DisplacementConnected", in(looks + "Glossy", displaced),
+         in(glossy, "float inputs:displacement = 0.1")},
         {"InputOutOfRange", in(glossy, "float inputs:roughness = 7")},
         {"InputNotANumber", in(glossy, "color3f inputs:diffuseColor = (nan, 0, 0)")},
         {"InputRemoved", removeProperty(glossy + ".inputs:roughness")},
