@@ -117,14 +117,33 @@ glm::vec3 Displacer::at(const TriangleMesh& mesh, const VertexFrames& frames, ui
     return _displacement.vector ? glm::vec3(value) : glm::vec3(0.f, 0.f, value.x);
 }
 
+namespace {
+
 std::shared_ptr<const TriangleMesh>
-displacedMesh(const TriangleMesh& mesh, const std::vector<std::shared_ptr<const Displacer>>& bySlot) {
+displacedShape(const TriangleMesh& mesh, const std::vector<std::shared_ptr<const Displacer>>& bySlot) {
     const VertexFrames frames = vertexFrames(mesh);
     return displace(mesh, frames, [&](uint32_t triangle, int corner) {
         const size_t slot = mesh.triangleSlot.empty() ? 0 : mesh.triangleSlot[triangle];
         const Displacer* displacer = slot < bySlot.size() ? bySlot[slot].get() : nullptr;
         return displacer ? displacer->at(mesh, frames, triangle, corner) : glm::vec3(0.f);
     });
+}
+
+} // namespace
+
+std::shared_ptr<const TriangleMesh>
+displacedMesh(const TriangleMesh& mesh, const std::vector<std::shared_ptr<const Displacer>>& bySlot) {
+    const std::shared_ptr<const TriangleMesh> still = displacedShape(mesh, bySlot);
+    if (mesh.motion.empty()) return still;
+    std::vector<MeshShape> shapes;
+    TriangleMesh shape = mesh;
+    shape.motion.clear();
+    for (const MeshKey& key : mesh.motion) {
+        shape.positions = key.positions;
+        shape.normals = key.normals;
+        shapes.emplace_back(key.time, displacedShape(shape, bySlot));
+    }
+    return withMotion(*still, shapes);
 }
 
 } // namespace hipr

@@ -74,7 +74,7 @@ void main() {
     Ray ray = RayRef(trace.rays[push.turn]).v[i];
     const bool seen = hit.instance != NO_INDEX;
 
-    if (seen && (scene.flags & SCENE_HAS_NON_OPAQUE) != 0u && evaluatePresence(scene, hit) <= 0.0) {
+    if (seen && (scene.flags & SCENE_HAS_NON_OPAQUE) != 0u && evaluatePresence(scene, hit, ray.time) <= 0.0) {
         ray.tMin = passedDistance(hit.t);
         const uint other = 1u - push.turn;
         const uint j = appendToQueue(trace, QUEUE_RAYS + other);

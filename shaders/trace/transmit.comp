@@ -36,11 +36,11 @@ void main() {
     TransmitWork transmit = TransmitWorkRef(trace.transmitWork[push.turn]).v[i];
     const bool free = hit.instance == NO_INDEX;
     const SceneRecord scene = SceneRef(trace.scene).v;
+    Ray ray = RayRef(trace.transmitRays[push.turn]).v[i];
     const vec3 share = free ? vec3(transmit.direct * transmit.work.weight + transmit.aside)
-                            : meetSurface(scene, hit, clamp(evaluatePresence(scene, hit), 0.0, 1.0), transmit);
+                            : meetSurface(scene, hit, clamp(evaluatePresence(scene, hit, ray.time), 0.0, 1.0), transmit);
     arrive(trace, transmit.work, share);
     if (free || !(transmit.direct + transmit.aside > 0.0)) return;
-    Ray ray = RayRef(trace.transmitRays[push.turn]).v[i];
     ray.tMin = passedDistance(hit.t);
     const uint other = 1u - push.turn;
     const uint j = appendToQueue(trace, QUEUE_TRANSMIT + other);
