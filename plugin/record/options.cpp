@@ -173,6 +173,10 @@ void addRendererOptions(CLI::App& app, Options& options, RawOptions& raw) {
         ->type_name("SECONDS")
         ->check(CLI::PositiveNumber)
         ->group("Rendering");
+    app.add_option("--threads", options.threads, "Threads of the processor to use at most [all]")
+        ->type_name("N")
+        ->check(CLI::Range(1, 4096))
+        ->group("Rendering");
     app.add_option("--set", raw.settings, "A setting of the renderer; may be given several times")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false)

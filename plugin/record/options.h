@@ -41,6 +41,7 @@ struct Options {
     int samples = 0;    ///< 0: the renderer's own
     double seconds = 0; ///< 0: no limit
     std::vector<std::pair<std::string, std::string>> settings;
+    int threads = 0; ///< of the processor; 0: all
     std::string renderer = "HiPR", device;
     std::string view; ///< "VIEW" or "DISPLAY/VIEW"; empty for the default
     float exposure = 0;

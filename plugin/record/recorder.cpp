@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <thread>
 #include <unistd.h>
@@ -136,6 +137,8 @@ void Recording::configureRenderer() {
         else if (_options.samples > 0)
             printWarning("the renderer " + _engine.rendererName() + " does not let --samples choose");
     }
+    if (_options.threads > 0 && hasSetting(delegate, "threadLimit"))
+        applySetting(delegate, "threadLimit", std::to_string(_options.threads));
     for (const auto& [key, value] : _options.settings)
         applySetting(delegate, key, value);
     for (const std::string& aov : _options.aovs) {
@@ -392,6 +395,8 @@ ExitCode record(const Options& options, const std::atomic<bool>& interrupted) {
         printLists(options);
         return ExitOk;
     }
+    // lavapipe asks once, when the first device is made; the user's own word is stronger.
+    if (options.threads > 0) setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), 0);
     const std::vector<Edit> edits =
         options.editsFile.empty() ? std::vector<Edit>() : readEdits(options.editsFile);
     const Recordings recordings = recordingsOf(options);

@@ -210,8 +210,8 @@ bool RendererImpl::renderBatch() {
         if (depthsMissing() && !firstHitsDone()) return renderFirstHits();
         if (_splats.pending()) return renderSplats();
         if (_edits.searching()) return search();
-        const bool sampled = _schedule.samplesDone() >= uint32_t(_settings.samples);
-        const bool firstHits = !firstHitsDone() && (sampled || _schedule.discoveredRefreshed());
+        if (complete()) return finish(), false;
+        const bool firstHits = !firstHitsDone() && (sampled() || _schedule.discoveredRefreshed());
         return firstHits ? renderFirstHits() : renderSamples();
     });
 }

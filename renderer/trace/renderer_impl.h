@@ -5,6 +5,8 @@
 #include <chrono>
 #include <mutex>
 
+#include <tbb/task_arena.h>
+
 #include "renderer/api/renderer.h"
 #include "renderer/hipr/schedule.h"
 #include "renderer/hipr/schedule_log.h"
@@ -58,6 +60,7 @@ private:
     uint32_t tileSize() const;
     bool setup();
     void selectTraversal();
+    void limitThreads(int limit);
     bool search();
     bool renderFirstHits();
     void updateSplats();
@@ -67,6 +70,7 @@ private:
     void awaitSplats();
     bool renderSplats();
     bool complete() const;
+    bool sampled() const;
     bool firstHitsDone() const { return _firstHitsDone >= _film.pixels(); }
     bool renderSamples();
     void learnFromPilots(const std::vector<gpu::TileWork>& tiles);
@@ -76,7 +80,8 @@ private:
     uint32_t samplePaths() const;
     void count(uint32_t paths, double seconds);
 
-    MachinePtr _machine; ///< outlives everything below
+    tbb::task_arena _arena; ///< of all work on the host
+    MachinePtr _machine;    ///< outlives everything below
     Device* _device;
     RendererInternals _internals;
     Settings _settings;
@@ -109,7 +114,7 @@ uint32_t pilotSamples(const Settings& settings);
 template <class F> bool RendererImpl::guarded(F&& work) {
     if (_failed) return false;
     try {
-        return work();
+        return _arena.execute(work);
     } catch (const std::exception& e) {
         fail(reasonOf(e));
     }

@@ -1,4 +1,8 @@
 // How RendererImpl takes settings and films.
+#include <algorithm>
+
+#include <tbb/info.h>
+
 #include "renderer/trace/renderer_impl.h"
 
 namespace hipr {
@@ -8,6 +12,8 @@ namespace {
 bool samePicture(const Settings& a, const Settings& b) {
     Settings c = a;
     c.samples = b.samples;
+    c.timeLimit = b.timeLimit;
+    c.threadLimit = b.threadLimit;
     c.traversal = b.traversal; // all traversals report the same hits
     c.mode = b.mode;           // what is rendered first is no part of the picture
     c.tileSize = b.tileSize;
@@ -34,6 +40,15 @@ ChangedSet settingChange() {
 }
 
 } // namespace
+
+/// Not from within the arena.
+void RendererImpl::limitThreads(int limit) {
+    const int all = tbb::info::default_concurrency();
+    const int threads = limit > 0 ? std::min(limit, all) : std::max(1, all + limit);
+    if (threads == _arena.max_concurrency()) return;
+    _arena.terminate();
+    _arena.initialize(threads);
+}
 
 void RendererImpl::selectTraversal() {
     const bool timed = _scene.moves();
@@ -80,6 +95,7 @@ ChangedSet RendererImpl::setFilm(const FilmDesc& film) {
 
 ChangedSet RendererImpl::setSettings(const Settings& settings) {
     ChangedSet changed;
+    limitThreads(settings.threadLimit);
     guarded([&] {
         const bool same = samePicture(_settings, settings);
         if (settings.mode != _settings.mode) _edits.stop();

@@ -5,7 +5,14 @@
 namespace hipr {
 
 bool RendererImpl::complete() const {
-    return _schedule.samplesDone() >= uint32_t(_settings.samples) && firstHitsDone() && !_splats.pending();
+    return sampled() && firstHitsDone() && !_splats.pending();
+}
+
+/// Whether no more samples are to be taken: all are, or time is up and every pixel has one.
+bool RendererImpl::sampled() const {
+    const uint32_t done = _schedule.samplesDone();
+    const bool timeIsUp = _settings.timeLimit > 0.f && _progress.seconds >= double(_settings.timeLimit);
+    return done >= uint32_t(_settings.samples) || (timeIsUp && done > 0);
 }
 
 /// Splats may have come, gone, moved or changed, and so may what hides them.
