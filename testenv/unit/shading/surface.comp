@@ -22,9 +22,10 @@ void main() {
     if (i >= push.count) return;
     const SceneRecord scene = SceneRef(push.scene).v;
     const Hit hit = HitRef(push.hits).v[i];
-    const Surface s = evaluateSurface(scene, hit, RayRef(push.rays).v[i]);
+    const Ray ray = RayRef(push.rays).v[i];
+    const Surface s = evaluateSurface(scene, hit, ray);
     OutcomeRef(push.outcomes).v[i] =
         SurfaceOutcome(s.position, s.ng, s.ns, s.tangent, s.emission, s.albedo, s.diffuse, s.f0, s.opacity,
-                       evaluatePresence(scene, hit), s.alpha.x, s.coat, s.coatAlpha.x, s.glass, s.eta,
+                       evaluatePresence(scene, hit, ray.time), s.alpha.x, s.coat, s.coatAlpha.x, s.glass, s.eta,
                        s.frontFacing ? 1u : 0u);
 }

@@ -42,7 +42,7 @@ public:
         }
         out.visible = delegate->GetVisible(GetId());
         out.renderTag = delegate->GetRenderTag(GetId());
-        const hipr::InstancesDesc instances = hdhipr::readInstances(*delegate, GetId(), GetInstancerId());
+        const hipr::InstancesDesc instances = hdhipr::readInstances(*delegate, GetId(), GetInstancerId(), false);
         out.places.clear();
         for (glm::mat4x3 const& transform : instances.transforms) {
             out.places.emplace_back(transform[3].x, transform[3].y, transform[3].z);
