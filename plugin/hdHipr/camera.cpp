@@ -90,7 +90,7 @@ void HdHiprCamera::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, H
 }
 
 void HdHiprCamera::Finalize(HdRenderParam* renderParam) {
-    static_cast<HdHiprRenderParam*>(renderParam)->setShutter(GetId(), {});
+    static_cast<HdHiprRenderParam*>(renderParam)->dropShutter(GetId());
     HdCamera::Finalize(renderParam);
 }
 

@@ -1,6 +1,7 @@
 #include "plugin/hdHipr/renderParam.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "plugin/hdHipr/messages.h"
 
@@ -88,13 +89,19 @@ void HdHiprRenderParam::removeLight(hipr::LightId id) {
 
 bool HdHiprRenderParam::setShutter(SdfPath const& camera, hipr::Shutter const& shutter) {
     std::lock_guard<std::mutex> lock(_mutex);
+    const bool dropped = std::exchange(_shutterDropped, false);
     if (!shutter.blurs()) {
-        return _openShutters.erase(camera) > 0;
+        return _openShutters.erase(camera) > 0 || dropped;
     }
     const auto [entry, added] = _openShutters.try_emplace(camera, shutter);
     const bool same = !added && entry->second == shutter;
     entry->second = shutter;
-    return !same;
+    return !same || dropped;
+}
+
+void HdHiprRenderParam::dropShutter(SdfPath const& camera) {
+    std::lock_guard<std::mutex> lock(_mutex);
+    _shutterDropped |= _openShutters.erase(camera) > 0;
 }
 
 bool HdHiprRenderParam::shutterOpen() {

@@ -56,6 +56,8 @@ public:
 
     /// Returns whether prims have to be sampled anew: the shutter opens or closes otherwise than before.
     bool setShutter(SdfPath const& camera, hipr::Shutter const& shutter);
+    /// The camera goes, perhaps to come back at once: UsdImaging makes some anew that were edited.
+    void dropShutter(SdfPath const& camera);
     /// Whether any camera has a shutter that opens.
     bool shutterOpen();
 
@@ -81,6 +83,7 @@ private:
     std::unordered_map<hipr::ObjectId, hdhipr::ObjectState> _objects;
     std::set<hipr::LightId> _domes; ///< those that are switched on
     std::map<SdfPath, hipr::Shutter> _openShutters;
+    bool _shutterDropped = false; ///< since the last setShutter()
     SdfPathVector _rootPaths, _excludePaths;
     TfTokenVector _renderTags;
 };

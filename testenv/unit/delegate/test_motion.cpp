@@ -97,7 +97,7 @@ TEST_F(Motion, ofPointsThatAreBalls) {
     ball.primvarsAtClose[HdTokens->points] = VtValue(there);
     host.scene().tracker().MarkRprimDirty(SdfPath("/balls"), HdChangeTracker::DirtyPoints);
     ASSERT_TRUE(host.render());
-    EXPECT_EQ(before, 1.0);
+    EXPECT_GT(before, 0.9); // the pixel filter reaches beyond the ball
     EXPECT_LT(coverage(there[0][0] - 2.f), 0.6);
     EXPECT_GT(coverage(there[0][0] - 1.f), 0.05);
 }
