@@ -132,7 +132,8 @@ vec4 graphRead(inout GraphReader reader, uint op, uint immediate, vec4 a) {
     return vec4(graphDirection(reader.point, op, immediate, reader.edges), 0.0);
 }
 
-// Runs one step and keeps its value. What is no number becomes 0, and infinity a large one.
+// Runs one step and keeps its value. What is no number becomes 0, and infinity a large one; but what is read for an input
+// alone stays as it is: broken data are dropped, and told, where they reach the picture.
 vec4 evaluateStep(inout GraphReader reader, GraphStep step_) {
     uint op = step_.code & 0xffu, result = (step_.code >> 8) & 0xffu;
     vec4 a = vec4(0.0), b = vec4(0.0), c = vec4(0.0), value;
@@ -145,7 +146,8 @@ vec4 evaluateStep(inout GraphReader reader, GraphStep step_) {
         value = graphRead(reader, op, step_.immediate, a);
     else
         value = graphValue(op, step_.immediate, a, b, c);
-    value = clamp(mix(value, vec4(0.0), isnan(value)), -1e18, 1e18);
+    if (op >= GRAPH_FIRST_PURE || result != GRAPH_NOWHERE)
+        value = clamp(mix(value, vec4(0.0), isnan(value)), -1e18, 1e18);
     if (result != GRAPH_NOWHERE) graphRegisters[min(result, GRAPH_REGISTERS - 1u)] = value;
     return value;
 }
