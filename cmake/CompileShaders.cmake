@@ -4,6 +4,8 @@
 # kernel becomes `const uint32_t NAME_spv[]` and `NAME_spv_size` (bytes) in namespace hipr::spirv, declared in
 # <target>.h. One file may be listed several times with other names and defines.
 find_program(HIPR_GLSLANG glslangValidator REQUIRED)
+find_program(HIPR_SPIRV_OPT spirv-opt REQUIRED)
+set(HIPR_EMBED_SPIRV ${CMAKE_CURRENT_LIST_DIR}/EmbedSpirv.cmake)
 
 function(hipr_compile_shaders target)
     cmake_parse_arguments(ARG "" "" "SHADERS" ${ARGN})
@@ -28,13 +30,19 @@ function(hipr_compile_shaders target)
             endforeach()
         endif()
         set(inc ${out}/${name}.inc)
+        set(spirv ${out}/${name}.spv)
+        add_custom_command(
+            OUTPUT ${spirv}
+            COMMAND ${HIPR_GLSLANG} -V --target-env vulkan1.2 -I${CMAKE_SOURCE_DIR}/shaders ${defines}
+                    --quiet --depfile ${spirv}.d -o ${spirv} ${CMAKE_SOURCE_DIR}/shaders/${file}
+            DEPENDS ${CMAKE_SOURCE_DIR}/shaders/${file}
+            DEPFILE ${spirv}.d
+            COMMENT "Compiling kernel ${name}" VERBATIM)
         add_custom_command(
             OUTPUT ${inc}
-            COMMAND ${HIPR_GLSLANG} -V --target-env vulkan1.2 -I${CMAKE_SOURCE_DIR}/shaders ${defines}
-                    --quiet --depfile ${inc}.d -x -o ${inc} ${CMAKE_SOURCE_DIR}/shaders/${file}
-            DEPENDS ${CMAKE_SOURCE_DIR}/shaders/${file}
-            DEPFILE ${inc}.d
-            COMMENT "Compiling kernel ${name}" VERBATIM)
+            COMMAND ${CMAKE_COMMAND} -DSPIRV_OPT=${HIPR_SPIRV_OPT} -DINPUT=${spirv} -DOUTPUT=${inc} -P ${HIPR_EMBED_SPIRV}
+            DEPENDS ${spirv} ${HIPR_EMBED_SPIRV}
+            COMMENT "Optimizing kernel ${name}" VERBATIM)
         set(cpp ${out}/${name}.cpp)
         file(GENERATE OUTPUT ${cpp} CONTENT
 "#include \"${target}.h\"

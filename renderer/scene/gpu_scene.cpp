@@ -75,8 +75,7 @@ GpuScene::GpuScene(Device& device, AssetReader assets)
       _textures(device, assets, _color), _materials(device, _names, _textures),
       _lights(device, _textures, _categories), _geometries(device, _names),
       _displacement(std::move(assets), _color, device.messages()), _volumes(device),
-      _objects(device, _names, _categories),
-      _meshLights(device),
+      _objects(device, _names, _categories), _meshLights(device),
       _record(device.createBuffer(sizeof(gpu::SceneRecord), MemoryUse::Device, "Scene")) {}
 
 void GpuScene::setTraversal(std::unique_ptr<Traversal> traversal) {
@@ -207,6 +206,17 @@ bool GpuScene::setOptions(const SceneOptions& options) {
     return true;
 }
 
+uint32_t GpuScene::shadingFeatures() const {
+    uint32_t features = 0;
+    if (_options.materials) {
+        features |= _materials.features();
+        if (_materials.anyEmissive()) features |= gpu::SCENE_HAS_MESH_LIGHTS; // most likely
+    }
+    if (shutter().blurs() && (_geometries.anyMotion() || _objects.anyMotion()))
+        features |= gpu::SCENE_HAS_MOTION;
+    return features;
+}
+
 void GpuScene::commit() {
     _textures.commit();
     _materials.commit();
@@ -232,6 +242,7 @@ void GpuScene::commit() {
     _textures.describe(_hostRecord);
     _volumes.describe(_hostRecord);
     _hostRecord.bvh = _traversal->sceneAddress();
+    _hostRecord.flags |= shadingFeatures() & ~gpu::SCENE_HAS_MESH_LIGHTS; // of which the lights know better
     if (!_options.domeVisibleToCamera) _hostRecord.flags |= gpu::SCENE_DOME_HIDDEN_FROM_CAMERA;
     _device.upload(_record, &_hostRecord, sizeof(_hostRecord));
 }

@@ -73,8 +73,11 @@ public:
     Shutter shutter() const { return _camera && _options.motionBlur ? _camera->shutter : Shutter(); }
     /// Whether something may move while the shutter is open, the camera included.
     bool moves() const {
-        return shutter().blurs() && (_camera->motion.size() > 1 || _geometries.anyMotion() || _objects.anyMotion());
+        return shutter().blurs() &&
+               (_camera->motion.size() > 1 || _geometries.anyMotion() || _objects.anyMotion());
     }
+    /// Which of SCENE_SHADING_FEATURES the scene will have, as far as can be told before commit().
+    uint32_t shadingFeatures() const;
     /// The SceneRecord, once committed.
     VkDeviceAddress address() const { return _record.address(); }
     uint32_t flags() const { return _hostRecord.flags; } ///< SCENE_*

@@ -1,5 +1,6 @@
 #include "renderer/shading/materials.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <vector>
@@ -24,6 +25,15 @@ template <class T> void append(std::vector<char>& bytes, const std::vector<T>& v
 uint64_t rowBytes(const ResolvedMaterial& m) {
     return (m.inputs.size() + m.stepConstants.size()) * sizeof(glm::vec4) +
            m.reads.size() * sizeof(InputNode) + m.steps.size() * sizeof(gpu::GraphStep);
+}
+
+/// SCENE_HAS_* of a scene with this material.
+uint32_t featuresOf(const ResolvedMaterial& m) {
+    const bool graph = std::any_of(m.steps.begin(), m.steps.end(), [](const gpu::GraphStep& step) {
+        return (step.code & 0xff) != gpu::GRAPH_READ;
+    });
+    return (m.model == MaterialModel::OpenPbr ? gpu::SCENE_HAS_OPENPBR : 0) |
+           (graph ? gpu::SCENE_HAS_GRAPHS : 0);
 }
 
 } // namespace
@@ -177,6 +187,13 @@ std::map<uint32_t, MaterialId> MaterialTable::indices() const {
 
 bool MaterialTable::emissive(MaterialId id) const {
     return _impl->emissive.count(id) > 0;
+}
+
+uint32_t MaterialTable::features() const {
+    uint32_t features = 0;
+    for (const auto& [id, material] : _impl->materials)
+        features |= featuresOf(material.inputs);
+    return features;
 }
 
 bool MaterialTable::anyEmissive() const {

@@ -40,6 +40,9 @@ public:
     /// Which material each record in use holds, but for the fallback look.
     std::map<uint32_t, MaterialId> indices() const;
 
+    /// What of SCENE_SHADING_FEATURES these materials need.
+    uint32_t features() const;
+
     /// Whether the material emits light.
     bool emissive(MaterialId id) const;
     /// Whether any does.

@@ -32,6 +32,14 @@ PathTracer::PathTracer(Device& device, uint32_t capacity)
       _cameraKeys(
           device.createBuffer(MaxMotionKeys * sizeof(glm::mat4x3), MemoryUse::Device, "Path queues")) {}
 
+void PathTracer::prepareFor(uint32_t sceneFlags) {
+    const uint32_t features = sceneFlags & gpu::SCENE_SHADING_FEATURES;
+    std::unique_ptr<BackgroundKernels>& shading = _shadingVariants[features];
+    if (!shading) shading = std::make_unique<BackgroundKernels>(_device, shadingKernelSources(features));
+    if ((sceneFlags & gpu::SCENE_HAS_VOLUMES) && !_volumeKernels)
+        _volumeKernels = std::make_unique<BackgroundKernels>(_device, volumeKernelSources());
+}
+
 void PathTracer::setup(gpu::TraceRecord record, const gpu::CameraRecord& camera,
                        const std::vector<glm::mat4x3>& cameraKeys, uint32_t sceneFlags) {
     _buffers.describe(record);
@@ -42,10 +50,8 @@ void PathTracer::setup(gpu::TraceRecord record, const gpu::CameraRecord& camera,
         _device.upload(_cameraKeys, cameraKeys.data(), cameraKeys.size() * sizeof(glm::mat4x3));
     _scene = record.scene;
     _sceneFlags = sceneFlags;
-    if ((sceneFlags & gpu::SCENE_HAS_MESH_LIGHTS) && !_emission)
-        _emission = std::make_unique<BackgroundKernels>(_device, emissionKernelSource());
-    if ((sceneFlags & gpu::SCENE_HAS_VOLUMES) && !_volumeKernels)
-        _volumeKernels = std::make_unique<BackgroundKernels>(_device, volumeKernelSources());
+    prepareFor(sceneFlags);
+    _shading = _shadingVariants.at(sceneFlags & gpu::SCENE_SHADING_FEATURES).get();
     _device.upload(_record, &record, sizeof(record));
     _device.upload(_camera, &camera, sizeof(camera));
 }
@@ -118,7 +124,7 @@ void PathTracer::raygen(Steps& steps, const std::vector<gpu::TileWork>& tiles, u
 void PathTracer::resolveShadows(Steps& steps, uint32_t turn) {
     steps.occluded("trace shadow", _buffers.shadowQueue(turn));
     if (_sceneFlags & gpu::SCENE_HAS_MESH_LIGHTS)
-        dispatchQueue(steps, "emission", _emission->get(0), gpu::QUEUE_SHADOW + turn, turn);
+        dispatchQueue(steps, "emission", kernel(ShadingKernelId::Emission), gpu::QUEUE_SHADOW + turn, turn);
     passVolumes(steps, "volume shadow", VolumeKernelId::Shadow, gpu::QUEUE_SHADOW, turn);
     dispatchQueue(steps, "shadow", kernel(KernelId::Shadow), gpu::QUEUE_SHADOW + turn, turn);
     const bool shadows = _sceneFlags & gpu::SCENE_HAS_SHADOWS_TO_WALK;
@@ -132,7 +138,7 @@ void PathTracer::resolveShadows(Steps& steps, uint32_t turn) {
             if (queueCount(queue) == 0) break;
         }
         steps.nearest("trace transmit", _buffers.transmitQueue(i % 2, mask));
-        dispatchQueue(steps, "transmit", kernel(KernelId::Transmit), queue, i % 2);
+        dispatchQueue(steps, "transmit", kernel(ShadingKernelId::Transmit), queue, i % 2);
     }
     prepare(steps, 0, bit(gpu::QUEUE_TRANSMIT) | bit(gpu::QUEUE_TRANSMIT + 1));
 }
@@ -149,7 +155,7 @@ bool PathTracer::tracePaths(Steps& steps, const std::vector<gpu::TileWork>& work
         if (round > 0) resolveShadows(steps, other);
         passVolumes(steps, "volume", VolumeKernelId::Flight, gpu::QUEUE_RAYS, turn);
         discover(steps, "discover", discovery, DiscoveryKernelId::Discover, gpu::QUEUE_RAYS, turn);
-        dispatchQueue(steps, "shade", kernel(KernelId::Shade), gpu::QUEUE_RAYS + turn, turn);
+        dispatchQueue(steps, "shade", kernel(ShadingKernelId::Shade), gpu::QUEUE_RAYS + turn, turn);
         prepare(steps, bit(gpu::QUEUE_RAYS + other) | bit(gpu::QUEUE_SHADOW + turn),
                 bit(gpu::QUEUE_RAYS + turn) | bit(gpu::QUEUE_SHADOW + other));
         discover(steps, "discover shadows", discovery, DiscoveryKernelId::Shadows, gpu::QUEUE_SHADOW, turn);
@@ -211,7 +217,7 @@ bool PathTracer::findFirstHits(Traversal& traversal, uint32_t first, uint32_t co
         const uint32_t turn = round % 2, other = 1 - turn;
         if (cancel) return false;
         steps.nearest("trace first hits", _buffers.rayQueue(turn));
-        dispatchQueue(steps, "visibility", kernel(KernelId::Visibility), gpu::QUEUE_RAYS + turn, turn);
+        dispatchQueue(steps, "visibility", kernel(ShadingKernelId::Visibility), gpu::QUEUE_RAYS + turn, turn);
         prepare(steps, bit(gpu::QUEUE_RAYS + other), bit(gpu::QUEUE_RAYS + turn));
         steps.flush();
         if (queueCount(gpu::QUEUE_RAYS + other) == 0) break;

@@ -39,6 +39,7 @@
 #pragma once
 
 #include <atomic>
+#include <map>
 #include <memory>
 
 #include "renderer/trace/discovery_passes.h"
@@ -53,9 +54,14 @@ public:
     /// `capacity`: paths a batch can hold.
     PathTracer(Device& device, uint32_t capacity);
 
-    /// Whether all kernels are compiled; waits up to `patience` for it.
+    /// Begins to compile, in the background, what a scene with these SCENE_* flags needs and was not needed
+    /// before.
+    void prepareFor(uint32_t sceneFlags);
+
+    /// Whether all kernels are compiled that the scene of the last setup() needs; waits up to `patience` for
+    /// it.
     bool ready(std::chrono::milliseconds patience) {
-        return _kernels.ready(patience) && (!_emission || _emission->ready(patience)) &&
+        return _kernels.ready(patience) && _shading && _shading->ready(patience) &&
                (!_volumeKernels || _volumeKernels->ready(patience));
     }
     uint32_t capacity() const { return _buffers.capacity; }
@@ -106,12 +112,16 @@ private:
     void resolveShadows(Steps& steps, uint32_t turn);
     void passVolumes(Steps& steps, const char* name, VolumeKernelId id, uint32_t queue, uint32_t turn);
     const Kernel& kernel(KernelId id) { return _kernels.get(size_t(id)); }
+    const Kernel& kernel(ShadingKernelId id) { return _shading->get(size_t(id)); }
     uint32_t queueCount(uint32_t queue);
     gpu::TraceKernelPush push() const { return {_record.address(), 0, 0, 0, 0}; }
 
     Device& _device;
     BackgroundKernels _kernels;
-    std::unique_ptr<BackgroundKernels> _emission;      ///< once a scene has asked for it
+    /// By SCENE_SHADING_FEATURES. All samples of a picture come from one variant: the last bits of what
+    /// another one computes may differ.
+    std::map<uint32_t, std::unique_ptr<BackgroundKernels>> _shadingVariants;
+    BackgroundKernels* _shading = nullptr;             ///< the scene's
     std::unique_ptr<BackgroundKernels> _volumeKernels; ///< once a scene had volumes
     WavefrontBuffers _buffers;
     Buffer _record, _camera, _cameraKeys;

@@ -109,6 +109,7 @@ ChangedSet RendererImpl::commit(SceneEdit& edit) {
                             (_schedule.pilot() > 0 && exposureChanged(before, _scene.camera()));
         std::vector<WorldBox> regions = _scene.takeVacated();
         selectTraversal();
+        _tracer.prepareFor(_scene.shadingFeatures());
         _scene.commit();
         _scene.addOccupied(changed, regions);
         if (camera || traced) restart(camera ? Cause::Camera : Cause::Edit);

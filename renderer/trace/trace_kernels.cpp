@@ -1,6 +1,7 @@
 #include "renderer/trace/trace_kernels.h"
 
 #include "hipr_trace_kernels.h"
+#include "shaders/shared/scene.h"
 #include "shaders/shared/trace.h"
 
 namespace hipr {
@@ -9,9 +10,6 @@ std::vector<KernelSource> traceKernelSources() {
     constexpr uint32_t push = sizeof(gpu::TraceKernelPush);
     using namespace spirv;
     return {
-        {shade_spv, shade_spv_size, push, "shade"},
-        {visibility_spv, visibility_spv_size, push, "visibility"},
-        {transmit_spv, transmit_spv_size, push, "transmit"},
         {raygen_spv, raygen_spv_size, push, "raygen"},
         {resolve_spv, resolve_spv_size, push, "resolve"},
         {shadow_spv, shadow_spv_size, push, "shadow"},
@@ -21,8 +19,17 @@ std::vector<KernelSource> traceKernelSources() {
     };
 }
 
-std::vector<KernelSource> emissionKernelSource() {
-    return {{spirv::emission_spv, spirv::emission_spv_size, sizeof(gpu::TraceKernelPush), "emission"}};
+std::vector<KernelSource> shadingKernelSources(uint32_t features) {
+    constexpr uint32_t push = sizeof(gpu::TraceKernelPush);
+    using namespace spirv;
+    std::vector<KernelSource> sources = {
+        {shade_spv, shade_spv_size, push, "shade", false, features},
+        {visibility_spv, visibility_spv_size, push, "visibility", false, features},
+        {transmit_spv, transmit_spv_size, push, "transmit", false, features},
+    };
+    if (features & gpu::SCENE_HAS_MESH_LIGHTS)
+        sources.push_back({emission_spv, emission_spv_size, push, "emission", false, features});
+    return sources;
 }
 
 std::vector<KernelSource> volumeKernelSources() {

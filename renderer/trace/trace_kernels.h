@@ -8,13 +8,17 @@
 
 namespace hipr {
 
-/// In the order in which they compile, the longest first.
-enum class KernelId { Shade, Visibility, Transmit, Raygen, Resolve, Shadow, VisibilityRays, Prepare, Scout };
+/// Those that are the same for all scenes, in the order in which they compile, the longest first.
+enum class KernelId { Raygen, Resolve, Shadow, VisibilityRays, Prepare, Scout };
 
 /// The sources of all of them, indexed by KernelId.
 std::vector<KernelSource> traceKernelSources();
-/// The kernel that only scenes with SCENE_HAS_MESH_LIGHTS need.
-std::vector<KernelSource> emissionKernelSource();
+
+/// Those that evaluate materials.
+enum class ShadingKernelId { Shade, Visibility, Transmit, Emission };
+/// Their sources for scenes with `features` of gpu::SCENE_SHADING_FEATURES; `emission` only with
+/// SCENE_HAS_MESH_LIGHTS.
+std::vector<KernelSource> shadingKernelSources(uint32_t features);
 
 /// Those that only scenes with volumes need, in the same way.
 enum class VolumeKernelId { Flight, Shadow };

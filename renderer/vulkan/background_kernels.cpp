@@ -87,7 +87,7 @@ void BackgroundKernels::assist() {
 }
 
 Kernel BackgroundKernels::make(Device& device, const KernelSource& s) {
-    Kernel kernel(device, s.spirv, s.spirvBytes, s.pushBytes, s.name, s.tlas);
+    Kernel kernel(device, s.spirv, s.spirvBytes, s.pushBytes, s.name, s.tlas, s.features);
     kernel.warm();
     return kernel;
 }

@@ -20,6 +20,7 @@ struct KernelSource {
     uint32_t pushBytes = 0;
     const char* name = "";
     bool tlas = false;
+    uint32_t features = ~0u; ///< specialisation constant 0, if it has one
 };
 
 /// Makes and warms kernels on threads of its own, in the order given: put the ones that compile longest

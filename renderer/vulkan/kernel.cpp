@@ -29,12 +29,12 @@ struct ShaderModule {
 } // namespace
 
 Kernel::Kernel(Device& device, const uint32_t* spirv, size_t spirvBytes, uint32_t pushBytes, const char* name,
-               bool tlas) {
+               bool tlas, uint32_t features) {
     _own.device = &device;
     _own.pushBytes = pushBytes;
     try {
         if (tlas) createDescriptors();
-        createPipeline(spirv, spirvBytes, name);
+        createPipeline(spirv, spirvBytes, name, features);
     } catch (...) {
         destroy(); // a constructor that throws runs no destructor
         throw;
@@ -74,7 +74,7 @@ void Kernel::createDescriptors() {
     check(vkAllocateDescriptorSets(_own.device->handle(), &allocate, &_own.set), "vkAllocateDescriptorSets");
 }
 
-void Kernel::createPipeline(const uint32_t* spirv, size_t spirvBytes, const char* name) {
+void Kernel::createPipeline(const uint32_t* spirv, size_t spirvBytes, const char* name, uint32_t features) {
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(_own.device->physical(), &properties);
     if (_own.pushBytes > properties.limits.maxPushConstantsSize)
@@ -95,6 +95,9 @@ void Kernel::createPipeline(const uint32_t* spirv, size_t spirvBytes, const char
     info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
     info.stage.module = shader.module;
     info.stage.pName = "main";
+    const VkSpecializationMapEntry entry{0, 0, sizeof features};
+    const VkSpecializationInfo specialization{1, &entry, sizeof features, &features};
+    info.stage.pSpecializationInfo = &specialization;
     info.layout = _own.layout;
     check(vkCreateComputePipelines(_own.device->handle(), _own.device->pipelineCache(), 1, &info, nullptr,
                                    &_own.pipeline),

@@ -18,10 +18,11 @@ class Kernel {
 public:
     Kernel() = default;
     /// `spirvBytes` bytes of SPIR-V with entry point `main`. `tlas`: the kernel also has one acceleration
-    /// structure at set 0, binding 0 (ray query). Throws std::runtime_error, naming the kernel, when the
-    /// driver refuses it. Thread-safe: kernels of one device may be made on several threads at once.
+    /// structure at set 0, binding 0 (ray query). `features`: specialisation constant 0. Throws
+    /// std::runtime_error, naming the kernel, when the driver refuses it. Thread-safe: kernels of one device
+    /// may be made on several threads at once.
     Kernel(Device& device, const uint32_t* spirv, size_t spirvBytes, uint32_t pushBytes, const char* name,
-           bool tlas = false);
+           bool tlas = false, uint32_t features = ~0u);
     Kernel(Kernel&& o) noexcept;
     Kernel& operator=(Kernel&& o) noexcept;
     ~Kernel();
@@ -39,7 +40,7 @@ public:
 
 private:
     void createDescriptors();
-    void createPipeline(const uint32_t* spirv, size_t spirvBytes, const char* name);
+    void createPipeline(const uint32_t* spirv, size_t spirvBytes, const char* name, uint32_t features);
     void destroy();
     void bind(VkCommandBuffer cmd, const void* push) const;
 

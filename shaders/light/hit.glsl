@@ -45,7 +45,7 @@ vec3 lightsAlongRay(SceneRecord scene, Ray ray, float tHit, bool cameraRay, floa
 
 // Weight of the emission of a surface that a ray has met, as hitWeight(). `n`, `categories`: of the surface that it left.
 float emissionWeight(SceneRecord scene, Hit hit, Ray ray, float bsdfPdf, vec3 n, uint categories) {
-    if (bsdfPdf < 0.0 || scene.instanceLights == 0ul) return 1.0;
+    if (bsdfPdf < 0.0 || !sceneHas(SCENE_HAS_MESH_LIGHTS) || scene.instanceLights == 0ul) return 1.0;
     uint index = UintRef(scene.instanceLights).v[hit.instance];
     if (index == NO_INDEX) return 1.0;
     LightRecord light = LightRef(scene.lights).v[index];

@@ -7,6 +7,7 @@
 #include "light/shaping.glsl"
 #include "light/shapes.glsl"
 #include "light/tree.glsl"
+#include "shared/features.glsl"
 
 struct LightSample {
     vec3 wi;
@@ -127,7 +128,7 @@ bool sampleLight(SceneRecord scene, vec3 p, vec3 n, uint categories, vec4 u, out
         seen = sampleDistant(light, u.yz, ls);
     } else if (light.kind == LIGHT_THIN) {
         seen = sampleThin(light, p, u.y, ls);
-    } else if (light.kind == LIGHT_MESH) {
+    } else if (sceneHas(SCENE_HAS_MESH_LIGHTS) && light.kind == LIGHT_MESH) {
         seen = sampleMesh(scene, light, p, u.yz, ls.wi, ls.pdf, ls.end);
         ls.distance = ls.end.t;
         ls.radiance = light.radiance;

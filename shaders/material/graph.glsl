@@ -135,6 +135,7 @@ vec4 graphRead(inout GraphReader reader, uint op, uint immediate, vec4 a) {
 // Runs one step and keeps its value. What is no number becomes 0, and infinity a large one; but what is read for an input
 // alone stays as it is: broken data are dropped, and told, where they reach the picture.
 vec4 evaluateStep(inout GraphReader reader, GraphStep step_) {
+    if (!sceneHas(SCENE_HAS_GRAPHS)) return graphRead(reader, GRAPH_READ, step_.immediate, vec4(0.0));
     uint op = step_.code & 0xffu, result = (step_.code >> 8) & 0xffu;
     vec4 a = vec4(0.0), b = vec4(0.0), c = vec4(0.0), value;
     if (op >= GRAPH_FIRST_WITH_OPERANDS) {

@@ -43,6 +43,8 @@ struct MaterialInputs {
     vec3 worldNormal;  // where a program makes one, else 0
 };
 
+bool isOpenPbr(uint materialFlags) { return sceneHas(SCENE_HAS_OPENPBR) && (materialFlags & MATERIAL_OPENPBR) != 0u; }
+
 // The constants of a row: straight loads of just the channels in use, no loop.
 MaterialInputs constantInputs(uint64_t row, bool openPbr) {
     Vec4Ref constants = Vec4Ref(row);
@@ -117,14 +119,14 @@ void setInput(inout MaterialInputs inputs, uint target, vec4 value) {
     case INPUT_THIN_FILM_WEIGHT: inputs.filmWeight = value.x; break;
     case INPUT_THIN_FILM_THICKNESS: inputs.filmThickness = value.x; break;
     case INPUT_THIN_FILM_IOR: inputs.filmIor = value.x; break;
-    case INPUT_WORLD_NORMAL: inputs.worldNormal = value.xyz; break;
+    case INPUT_WORLD_NORMAL: if (sceneHas(SCENE_HAS_GRAPHS)) inputs.worldNormal = value.xyz; break;
     }
 }
 
 // The inputs of a material, after the first `count` steps of its program. One loop with one texture look-up inside keeps
 // the kernel small: see docs/architecture.md.
 MaterialInputs evaluateInputs(SceneRecord scene, ShadingPoint point, MaterialRecord material, uint count) {
-    MaterialInputs inputs = constantInputs(material.constants, (material.flags & MATERIAL_OPENPBR) != 0u);
+    MaterialInputs inputs = constantInputs(material.constants, isOpenPbr(material.flags));
     GraphReader reader = graphReader(scene, point, material);
     [[dont_unroll]] for (uint k = 0u; k < count; ++k) {
         GraphStep step_ = GraphStepRef(material.steps).v[k];
@@ -132,7 +134,7 @@ MaterialInputs evaluateInputs(SceneRecord scene, ShadingPoint point, MaterialRec
         uint target = step_.code >> 16;
         setInput(inputs, target, value);
         if (target == INPUT_NORMAL) inputs.stEdges = reader.edges;
-        if (target == INPUT_TANGENT) inputs.tangentEdges = reader.edges;
+        if (sceneHas(SCENE_HAS_OPENPBR) && target == INPUT_TANGENT) inputs.tangentEdges = reader.edges;
     }
     return inputs;
 }

@@ -3,6 +3,7 @@
 #define HIPR_MATERIAL_POINT_GLSL
 #include "accel/motion.glsl"
 #include "material/frame.glsl"
+#include "shared/features.glsl"
 #include "shared/references.glsl"
 
 // What a material reads at a hit: the triangle it is on, and where on it.
@@ -30,6 +31,7 @@ ShadingPoint shadingPoint(SceneRecord scene, Hit hit) {
 
 // Takes a point to where it is at a time of the shutter.
 void moveTo(inout ShadingPoint point, SceneRecord scene, float time) {
+    if (!sceneHas(SCENE_HAS_MOTION)) return;
     if (point.instance.keyCount > 0u) {
         point.instance.objectToWorld =
             transformAt(scene.motionKeys, point.instance.firstKey, point.instance.keyCount, time);

@@ -44,7 +44,7 @@ void setGeometry(inout Surface s, ShadingPoint point, vec3 wo, out vec3 e1, out 
 
 // The parameters of the lobes, for a viewer whose direction has the cosine `cosine`.
 void setLobes(inout Surface s, MaterialInputs inputs, uint flags, float cosine) {
-    s.openPbr = (flags & MATERIAL_OPENPBR) != 0u;
+    s.openPbr = isOpenPbr(flags);
     if (s.openPbr) {
         setOpenPbrLobes(s, inputs, flags);
         setOpenPbrViewer(s, clamp(inputs.coatDarkening, 0.0, 1.0), cosine);

@@ -115,7 +115,13 @@ HIPR_CONST uint SCENE_DOME_HIDDEN_FROM_CAMERA = 2u;
 HIPR_CONST uint SCENE_HAS_SHADOWS_TO_WALK = 4u; // some light has a ShadowRecord
 HIPR_CONST uint SCENE_HAS_MESH_LIGHTS = 8u;
 
+HIPR_CONST uint SCENE_HAS_OPENPBR = 16u;        // some material of the scene is of that model
+HIPR_CONST uint SCENE_HAS_GRAPHS = 32u;         // some material's program has other steps than GRAPH_READ
 HIPR_CONST uint SCENE_HAS_VOLUMES = 64u;
+HIPR_CONST uint SCENE_HAS_MOTION = 128u;        // some object moves or deforms while the shutter is open
+// Those that kernels which shade are specialised by: what the scene does not have is not in their code.
+HIPR_CONST uint SCENE_SHADING_FEATURES =
+    SCENE_HAS_MESH_LIGHTS | SCENE_HAS_OPENPBR | SCENE_HAS_GRAPHS | SCENE_HAS_MOTION;
 
 HIPR_SHARED_END
 #endif

@@ -76,6 +76,7 @@ Ray rayThroughCentre(TraceRecord trace, Path path) {
 
 // The medium a path is in.
 MediumRecord mediumOf(SceneRecord scene, Path path) {
+    if (!sceneHas(SCENE_HAS_OPENPBR)) return MediumRecord(vec3(0.0), 0.0, vec3(0.0), 0.0);
     const uint kind = path.medium & MEDIUM_KIND, material = (path.medium & ~MEDIUM_DISPERSED) >> MEDIUM_SHIFT;
     MediumRecord medium = MediumRecord(vec3(0.0), 0.0, vec3(0.0), 0.0);
     if (kind == MEDIUM_INTERIOR) medium = MaterialRef(scene.materials).v[material].interior;

@@ -174,7 +174,7 @@ void main() {
 
     // Camera rays end at the far plane, later ones only where a medium scatters the path.
     const bool nothing = hit.instance == NO_INDEX;
-    const bool inMedium = nothing && path.depth > 0u && ray.tMax < RAY_INFINITY, miss = nothing && !inMedium;
+    const bool inMedium = sceneHas(SCENE_HAS_OPENPBR) && nothing && path.depth > 0u && ray.tMax < RAY_INFINITY, miss = nothing && !inMedium;
     const float distance_ = nothing ? ray.tMax : hit.t;
     collectLight(trace, scene, path, ray, distance_, miss);
     const MediumRecord medium = mediumOf(scene, path);

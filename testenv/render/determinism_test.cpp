@@ -71,7 +71,59 @@ ColorPicture reference() {
     return picture;
 }
 
+/// What kernels are specialised by: OpenPBR, and a graph that is more than one texture or primvar.
+MaterialDesc graphOfOpenPbr() {
+    MaterialDesc desc;
+    desc.model = MaterialModel::OpenPbr;
+    GraphBuilder graph;
+    const GraphValue position = graph.geometry(gpu::GRAPH_POSITION, gpu::GRAPH_WORLD);
+    const GraphValue color = graph.op(gpu::GRAPH_ABS, position);
+    desc.openPbr[OpenPbrInput::BaseColor] = graph.input(color, constantColor(glm::vec3(0.5f)));
+    desc.graph = graph.graph();
+    return desc;
+}
+
+/// Samples that make another choice because of another last bit are few.
+void expectNearlyTheSame(const ColorPicture& a, const ColorPicture& b) {
+    size_t others = 0;
+    for (size_t i = 0; i < a.values.size(); ++i)
+        others += glm::length(a.values[i] - b.values[i]) > 1e-4f * glm::length(a.values[i]);
+    EXPECT_LT(others, a.values.size() / 100);
+    EXPECT_NEAR(mean(a).y, mean(b).y, 1e-3 * mean(a).y);
+}
+
 } // namespace
+
+TEST(Determinism, KernelsThatCanMoreMakeTheSamePicture) {
+    Stage stage(fewSamples());
+    build(stage);
+    stage.edit.setMaterial(stage.renderer->newId<MaterialId>(), graphOfOpenPbr());
+    stage.render();
+    expectNearlyTheSame(reference(), stage.color());
+}
+
+TEST(Determinism, WhatASceneHadBeforeDoesNotMatter) {
+    Stage stage(fewSamples());
+    build(stage);
+    MaterialDesc glow = graphOfOpenPbr();
+    glow.openPbr[OpenPbrInput::EmissionColor] = constantColor(glm::vec3(1.f));
+    glow.openPbr[OpenPbrInput::EmissionLuminance] = constantValue(1.f);
+    const ObjectId ball = stage.add(sphereMesh(8), glow);
+    CameraDesc camera = lookAt({0, 1, 6}, {0, 0, 0}, 45, 80.0 / 60.0), open = camera;
+    open.shutter = {0, 1};
+    InstancesDesc moving{{translation(-1, 0, 0)}, {}, {}};
+    moving.motion.times = {0.f, 1.f};
+    moving.motion.transforms = {{translation(-1, 0, 0)}, {translation(1, 0, 0)}};
+    stage.edit.setInstances(ball, moving);
+    stage.edit.setCamera(open);
+    stage.render();
+    EXPECT_FALSE(sameBits(reference(), stage.color()));
+    stage.edit.removeObject(ball);
+    stage.edit.removeMaterial(MaterialId(uint32_t(ball) - 1)); // the id that was made before
+    stage.edit.setCamera(camera);
+    stage.render();
+    EXPECT_TRUE(sameBits(reference(), stage.color()));
+}
 
 TEST(Determinism, BatchAndTileSizesDoNotMatter) {
     for (const RendererInternals& internals :
