@@ -267,6 +267,15 @@ inline void collectionsChanged([[maybe_unused]] HdRenderIndex& index) {
 #endif
 }
 
+/// Which of the grids of one name a field means. Before 20.11 UsdVol has no such attribute, and asking for it is an error.
+inline int fieldIndex([[maybe_unused]] HdSceneDelegate* delegate, [[maybe_unused]] SdfPath const& id) {
+#if PXR_VERSION >= 2011
+    return VtValue::Cast<int>(delegate->Get(id, TfToken("fieldIndex"))).GetWithDefault(0);
+#else
+    return 0;
+#endif
+}
+
 /// How the poles of a dome light's texture lie in its own space (DomeLight_1, from 23.11 on).
 inline GfMatrix4d domeOffset([[maybe_unused]] HdSceneDelegate* delegate, [[maybe_unused]] SdfPath const& id) {
 #if PXR_VERSION >= 2311

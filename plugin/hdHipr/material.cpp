@@ -2,6 +2,7 @@
 
 #include "plugin/hdHipr/materialNetwork.h"
 #include "plugin/hdHipr/renderParam.h"
+#include "plugin/hdHipr/volumeMaterial.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
 
@@ -19,6 +20,11 @@ void HdHiprMaterial::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
         } else { // without a surface the mesh shows its displayColor
             param.edit().removeMaterial(param.materialId(GetId()));
         }
+        if (const auto look = hdhipr::volumeLook(GetId(), networks)) {
+            param.edit().setVolumeLook(param.materialId(GetId()), *look);
+        } else {
+            param.edit().removeVolumeLook(param.materialId(GetId()));
+        }
     }
     *dirtyBits = Clean;
 }
@@ -27,6 +33,7 @@ void HdHiprMaterial::Finalize(HdRenderParam* renderParam) {
     auto& param = static_cast<HdHiprRenderParam&>(*renderParam);
     if (!GetId().IsEmpty()) {
         param.edit().removeMaterial(param.materialId(GetId()));
+        param.edit().removeVolumeLook(param.materialId(GetId()));
     }
 }
 

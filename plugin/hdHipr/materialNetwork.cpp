@@ -221,9 +221,6 @@ void setDisplacement(SdfPath const& materialPath, HdMaterialNetworkMap const& ne
 
 std::optional<hipr::MaterialDesc> materialDesc(SdfPath const& materialPath,
                                                HdMaterialNetworkMap const& networks) {
-    if (networks.map.count(HdMaterialTerminalTokens->volume)) {
-        warnOnce(materialPath.GetString(), "volume terminals are not supported and have no effect");
-    }
     const auto surface = networks.map.find(HdMaterialTerminalTokens->surface);
     if (surface == networks.map.end() || surface->second.nodes.empty()) {
         return std::nullopt;

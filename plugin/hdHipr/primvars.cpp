@@ -1,6 +1,7 @@
 #include "plugin/hdHipr/primvars.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <type_traits>
 
@@ -71,6 +72,17 @@ std::optional<hipr::Primvar> toPrimvar(TfToken const& name, VtValue const& value
         return std::nullopt;
     }
     return out;
+}
+
+std::optional<glm::vec3> toColor(TfToken const& name, VtValue const& value) {
+    const std::optional<hipr::Primvar> primvar = toPrimvar(name, value);
+    if (!primvar) {
+        return std::nullopt;
+    }
+    auto const& v = primvar->values;
+    const glm::vec3 color = primvar->components < 3 ? glm::vec3(v[0]) : glm::vec3(v[0], v[1], v[2]);
+    const bool finite = std::isfinite(color.x) && std::isfinite(color.y) && std::isfinite(color.z);
+    return finite ? std::optional(color) : std::nullopt;
 }
 
 std::optional<hipr::Interpolation> toInterpolation(HdInterpolation interpolation) {

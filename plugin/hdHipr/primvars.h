@@ -25,6 +25,10 @@ namespace hdhipr {
 /// interpolation is not set.
 std::optional<hipr::Primvar> toPrimvar(TfToken const& name, VtValue const& value);
 
+/// A number, which counts for all three channels, or the first three of a vector. Nothing for other types and
+/// where one of them is not finite.
+std::optional<glm::vec3> toColor(TfToken const& name, VtValue const& value);
+
 /// Varying becomes Vertex (Primvar::linear tells them apart). Nothing for instance-rate primvars, which
 /// travel with the instances.
 std::optional<hipr::Interpolation> toInterpolation(HdInterpolation interpolation);

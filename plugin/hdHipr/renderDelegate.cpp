@@ -7,6 +7,7 @@
 #include "plugin/hdHipr/assets.h"
 #include "plugin/hdHipr/basisCurves.h"
 #include "plugin/hdHipr/camera.h"
+#include "plugin/hdHipr/field.h"
 #include "plugin/hdHipr/instancer.h"
 #include "plugin/hdHipr/light.h"
 #include "plugin/hdHipr/material.h"
@@ -18,6 +19,7 @@
 #include "plugin/hdHipr/renderParam.h"
 #include "plugin/hdHipr/renderPass.h"
 #include "plugin/hdHipr/renderSettings.h"
+#include "plugin/hdHipr/volume.h"
 #include "pxr/base/tf/stringUtils.h"
 #include "pxr/imaging/hd/extComputation.h"
 #include "pxr/imaging/hd/resourceRegistry.h"
@@ -80,7 +82,8 @@ HdRenderParam* HdHiprRenderDelegate::GetRenderParam() const {
 
 TfTokenVector const& HdHiprRenderDelegate::GetSupportedRprimTypes() const {
     static const TfTokenVector types = {HdPrimTypeTokens->mesh, HdPrimTypeTokens->basisCurves,
-                                        HdPrimTypeTokens->points, particleFieldType()};
+                                        HdPrimTypeTokens->points, HdPrimTypeTokens->volume,
+                                        particleFieldType()};
     return types;
 }
 
@@ -93,7 +96,7 @@ TfTokenVector const& HdHiprRenderDelegate::GetSupportedSprimTypes() const {
 }
 
 TfTokenVector const& HdHiprRenderDelegate::GetSupportedBprimTypes() const {
-    static const TfTokenVector types = {HdPrimTypeTokens->renderBuffer};
+    static const TfTokenVector types = {HdPrimTypeTokens->renderBuffer, vdbFieldType()};
     return types;
 }
 
@@ -107,6 +110,9 @@ HdRprim* HdHiprRenderDelegate::createRprim(TfToken const& type, SdfPath const& i
     }
     if (type == HdPrimTypeTokens->points) {
         return new HdHiprPoints(id, instancerId, *_param);
+    }
+    if (type == HdPrimTypeTokens->volume) {
+        return new HdHiprVolume(id, instancerId, *_param);
     }
     if (type == particleFieldType()) {
         return new HdHiprParticleField(id, instancerId, *_param);
@@ -158,6 +164,9 @@ HdBprim* HdHiprRenderDelegate::CreateBprim(TfToken const& type, SdfPath const& i
     if (type == HdPrimTypeTokens->renderBuffer) {
         return new HdHiprRenderBuffer(id);
     }
+    if (type == vdbFieldType()) {
+        return new HdHiprField(id);
+    }
     warnOnce(id.GetString(), "prims of type '" + type.GetString() + "' are not supported");
     return nullptr;
 }
@@ -168,7 +177,9 @@ HdBprim* HdHiprRenderDelegate::CreateFallbackBprim(TfToken const& type) {
 
 void HdHiprRenderDelegate::DestroyBprim(HdBprim* bprim) {
     // Not every host finalizes the buffers it made itself.
-    _param->releaseBuffer(static_cast<HdHiprRenderBuffer*>(bprim));
+    if (auto* buffer = dynamic_cast<HdHiprRenderBuffer*>(bprim)) {
+        _param->releaseBuffer(buffer);
+    }
     delete bprim;
 }
 

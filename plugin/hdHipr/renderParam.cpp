@@ -32,6 +32,15 @@ hipr::MaterialId HdHiprRenderParam::materialId(SdfPath const& path) {
     return id;
 }
 
+hipr::FieldId HdHiprRenderParam::fieldId(SdfPath const& path) {
+    std::lock_guard<std::mutex> lock(_mutex);
+    hipr::FieldId& id = _fields[path];
+    if (id == hipr::FieldId::None) {
+        id = newId<hipr::FieldId>();
+    }
+    return id;
+}
+
 bool HdHiprRenderParam::included(ObjectState const& state) const {
     const auto above = [&](SdfPath const& path) { return state.path.HasPrefix(path); };
     const bool tagged = _renderTags.empty() || std::find(_renderTags.begin(), _renderTags.end(),

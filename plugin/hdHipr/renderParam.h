@@ -43,6 +43,9 @@ public:
     /// The material of a path. A mesh may ask before the material has synced, or when it never does.
     hipr::MaterialId materialId(SdfPath const& path);
 
+    /// The field of a path, likewise.
+    hipr::FieldId fieldId(SdfPath const& path);
+
     void setObject(hipr::ObjectId id, hdhipr::ObjectState const& state);
     void removeObject(hipr::ObjectId id);
 
@@ -80,6 +83,7 @@ private:
 
     std::mutex _mutex; ///< guards everything below
     std::unordered_map<SdfPath, hipr::MaterialId, SdfPath::Hash> _materials;
+    std::unordered_map<SdfPath, hipr::FieldId, SdfPath::Hash> _fields;
     std::unordered_map<hipr::ObjectId, hdhipr::ObjectState> _objects;
     std::set<hipr::LightId> _domes; ///< those that are switched on
     std::map<SdfPath, hipr::Shutter> _openShutters;

@@ -58,6 +58,7 @@ inline void PrintTo(const Row& row, std::ostream* out) {
 Rows meshRows();
 Rows shapeRows(); ///< curves and points
 Rows splatRows();
+Rows volumeRows(); ///< none without OpenVDB
 Rows primvarRows();
 Rows materialRows();
 Rows textureRows();

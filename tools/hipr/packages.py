@@ -56,6 +56,7 @@ PACKAGES = (
     Package("libopencolorio-dev", "colour spaces and view transforms"),
     Package("libopenexr-dev", "headers that OpenImageIO's CMake files refer to"),
     Package("libpugixml-dev", "reads MaterialX documents"),
+    Package("libopenvdb-dev", "reads volumes from .vdb files; CMake goes on without it"),
     Package("zlib1g-dev", "inflates .spz files of splats"),
     Package("libglm-dev", "vectors and matrices"),
     Package("libcli11-dev", "hiprrecord's command line"),

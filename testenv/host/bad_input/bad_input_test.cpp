@@ -95,6 +95,12 @@ INSTANTIATE_TEST_SUITE_P(
                     BadInput{"broken_mtlx", "broken.mtlx:5", "no valid XML", "blue", "white"},
                     BadInput{"unknown_shader", Material, "NoSuchSurface", "blue", "white"}));
 
+INSTANTIATE_TEST_SUITE_P(Volumes, BadInputTest,
+                         testing::Values(BadInput{"volume_missing_file", "/World/Broken",
+                                                  "no_such_file.vdb", "blue", "black"},
+                                         BadInput{"volume_corrupt_file", "</World/Broken/density>",
+                                                  "broken.vdb", "blue", "black"}));
+
 INSTANTIATE_TEST_SUITE_P(Lights, BadInputTest,
                          testing::Values(BadInput{"nan_light", Mesh, "not finite", "blue", "black"},
                                          BadInput{"negative_light_size", Mesh, "no area", "blue", "black"},

@@ -26,6 +26,8 @@ enum class Target {
     Nested,
     Cloud,
     Clouds,
+    Fog,
+    Mist,
     Strand,
     Dots,
     Added,
@@ -65,6 +67,7 @@ public:
 private:
     using Id = decltype(hipr::ChangedElement::element);
     void learn(Target target);
+    void addFog();
 
     TestHost _host;
     std::map<Id, Target> _targets;
@@ -93,6 +96,8 @@ Section meshSection();
 Section curvesSection();
 Section pointsSection();
 Section particleFieldSection();
+Section volumeSection();
+Section fieldSection(); ///< and volume terminals of materials
 Section instancerSection();
 Section lightSection();
 Section materialSection();
@@ -110,9 +115,10 @@ struct Absent {
 std::vector<Absent> const& absentTypes();
 
 inline std::vector<Section> allSections() {
-    return {meshSection(),        curvesSection(), pointsSection(),   particleFieldSection(),
-            instancerSection(),   lightSection(),  materialSection(), cameraSection(),
-            computationSection(), bufferSection(), primSection(),     hostSection()};
+    return {meshSection(),     curvesSection(), pointsSection(),      particleFieldSection(),
+            volumeSection(),   fieldSection(),  instancerSection(),   lightSection(),
+            materialSection(), cameraSection(), computationSection(), bufferSection(),
+            primSection(),     hostSection()};
 }
 
 /// docs/dirty_bits.md.

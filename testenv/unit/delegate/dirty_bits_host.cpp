@@ -131,7 +131,7 @@ Section hostSection() {
     const Elements hidden = {{Target::Square, Change::Visibility}};
     Elements allHidden;
     for (Target target : {Target::Square, Target::Smooth, Target::Computed, Target::Many, Target::Nested,
-                          Target::Cloud, Target::Clouds, Target::Strand, Target::Dots}) {
+                          Target::Cloud, Target::Clouds, Target::Fog, Target::Strand, Target::Dots}) {
         allHidden.push_back({target, Change::Visibility});
     }
     return {
@@ -182,9 +182,7 @@ Section hostSection() {
 
 std::vector<Absent> const& absentTypes() {
     static const std::vector<Absent> types = {
-        {"volume", {}},
-        {"openvdbAsset",
-         {"HdField::Clean", "HdField::DirtyTransform", "HdField::DirtyParams", "HdField::AllDirty"}},
+        {"field3dAsset", {}},
         {"texture",
          {"HdTexture::Clean", "HdTexture::DirtyTexture", "HdTexture::DirtyParams", "HdTexture::AllDirty"}},
         {"coordSys", {"HdCoordSys::Clean", "HdCoordSys::DirtyTransform", "HdCoordSys::AllDirty"}},

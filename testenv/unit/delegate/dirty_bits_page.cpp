@@ -106,7 +106,7 @@ std::string page() {
         for (size_t i = 0; i < absent.bits.size(); ++i) {
             out << (i ? ", " : "") << code(absent.bits[i]);
         }
-        out << (absent.bits.empty() ? "those of a mesh" : "") << " |\n";
+        out << (absent.bits.empty() ? "those of openvdbAsset" : "") << " |\n";
     }
     return out.str();
 }

@@ -1,4 +1,7 @@
+#include <gtest/gtest.h>
+
 #include "pxr/imaging/pxOsd/tokens.h"
+#include "testenv/common/vdb_kit.h"
 #include "testenv/unit/delegate/dirty_bits.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
@@ -61,6 +64,7 @@ World::World() : _host({"color", "primId"}) {
     scene().addPoints(SdfPath("/dots"), VtVec3fArray(2, grey)).transform.SetTranslate(GfVec3d(3, -3, 0));
     learn(Target::Dots);
 
+    addFog();
     _expected = Target::Cloud;
     scene().addSplats(SdfPath("/cloud"), GfVec3f(0.8f, 0.5f, 0.1f)).transform.SetTranslate(GfVec3d(0, 3, 0));
     render();
@@ -68,6 +72,28 @@ World::World() : _host({"color", "primId"}) {
     _expected = Target::Clouds;
     scene().addSplats(SdfPath("/clouds.cloud"), GfVec3f(0.1f, 0.5f, 0.8f), SdfPath("/clouds"));
     render();
+}
+
+/// A volume of one field, and a material with a volume terminal.
+void World::addFog() {
+    hipr::test::VdbGrid density, thin;
+    thin.name = "thin";
+    thin.value = [](glm::ivec3) { return 0.5; };
+    const std::string file = testing::TempDir() + "dirty_bits.vdb";
+    hipr::test::writeVdb(file, {density, thin});
+    TestScene::Prim& fog = scene().addVolume(SdfPath("/fog"));
+    fog.transform.SetTranslate(GfVec3d(-3, -3, 0));
+    fog.primvars[TfToken("hipr:volume:density")] = {HdInterpolationConstant, VtValue(1.f)};
+    scene().addField(SdfPath("/fog.density"), file, SdfPath("/fog"));
+    learn(Target::Fog);
+
+    HdMaterialNode medium{SdfPath("/mist/medium"), TfToken("ND_absorption_vdf"), {}};
+    medium.parameters[TfToken("absorption")] = VtValue(GfVec3f(1.f));
+    HdMaterialNetworkMap networks;
+    networks.map[HdMaterialTerminalTokens->volume].nodes = {medium};
+    networks.terminals = {medium.path};
+    scene().addMaterial(SdfPath("/mist"), GfVec3f(0.5f)).resource = VtValue(networks);
+    learn(Target::Mist);
 }
 
 TestScene::Prim& World::addSquare(const char* path, Target target, const char* instancer) {

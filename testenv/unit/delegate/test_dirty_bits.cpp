@@ -147,7 +147,8 @@ TEST(DirtyBits, BecomeWhatTheTableSays) {
 
 TEST(DirtyBits, AreNotLeftOnAPrimThatHasSynced) {
     World world;
-    for (Section const& section : {meshSection(), curvesSection(), pointsSection(), particleFieldSection()}) {
+    for (Section const& section :
+         {meshSection(), curvesSection(), pointsSection(), particleFieldSection(), volumeSection()}) {
         for (Row const& row : section.rows) {
             row.apply(world, true);
             world.render();
@@ -155,8 +156,8 @@ TEST(DirtyBits, AreNotLeftOnAPrimThatHasSynced) {
             world.render();
         }
     }
-    for (const char* path :
-         {"/square", "/smooth", "/computed", "/many.square", "/inner.square", "/strand", "/dots", "/cloud", "/clouds.cloud"}) {
+    for (const char* path : {"/square", "/smooth", "/computed", "/many.square", "/inner.square", "/strand",
+                             "/dots", "/cloud", "/clouds.cloud", "/fog"}) {
         const HdDirtyBits bits = world.tracker().GetRprimDirtyBits(SdfPath(path));
         EXPECT_EQ(HdChangeTracker::StringifyDirtyBits(bits & ~HdChangeTracker::Varying),
                   HdChangeTracker::StringifyDirtyBits(HdChangeTracker::Clean))

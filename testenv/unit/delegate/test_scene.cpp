@@ -6,6 +6,7 @@
 #include "pxr/base/gf/vec3f.h"
 #include "pxr/imaging/hd/camera.h"
 #include "pxr/imaging/pxOsd/tokens.h"
+#include "pxr/usd/sdf/assetPath.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
 
@@ -159,13 +160,30 @@ TestScene::Prim& TestScene::addBuffer(SdfPath const& id, HdRenderBufferDescripto
     return prim;
 }
 
+TestScene::Prim& TestScene::addVolume(SdfPath const& id, SdfPath const& instancer) {
+    return insertRprim(HdPrimTypeTokens->volume, id, instancer);
+}
+
+TestScene::Prim& TestScene::addField(SdfPath const& id, std::string const& file, SdfPath const& volume,
+                                     char const* name) {
+    const TfToken type("openvdbAsset");
+    Prim& field = _prims[id];
+    field.type = type;
+    field.params[TfToken("filePath")] = VtValue(SdfAssetPath(file));
+    field.params[TfToken("fieldName")] = VtValue(TfToken(name));
+    GetRenderIndex().InsertBprim(type, this, id);
+    prim(volume).fields.emplace_back(TfToken(name), type, id);
+    return field;
+}
+
 void TestScene::remove(SdfPath const& id) {
     const TfToken type = prim(id).type;
-    if (type == HdPrimTypeTokens->mesh || type == hdhipr::particleFieldType()) {
+    if (type == HdPrimTypeTokens->mesh || type == HdPrimTypeTokens->volume ||
+        type == hdhipr::particleFieldType()) {
         GetRenderIndex().RemoveRprim(id);
     } else if (type == HdInstancerTokens->instancer) {
         GetRenderIndex().RemoveInstancer(id);
-    } else if (type == HdPrimTypeTokens->renderBuffer) {
+    } else if (type == HdPrimTypeTokens->renderBuffer || type == "openvdbAsset") {
         GetRenderIndex().RemoveBprim(type, id);
     } else {
         GetRenderIndex().RemoveSprim(type, id);
@@ -175,7 +193,7 @@ void TestScene::remove(SdfPath const& id) {
 
 VtValue TestScene::Get(SdfPath const& id, TfToken const& key) {
     const auto found = prim(id).primvars.find(key);
-    return found == prim(id).primvars.end() ? VtValue() : found->second.value;
+    return found == prim(id).primvars.end() ? param(id, key) : found->second.value;
 }
 
 HdPrimvarDescriptorVector TestScene::GetPrimvarDescriptors(SdfPath const& id, HdInterpolation interpolation) {

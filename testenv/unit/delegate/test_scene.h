@@ -30,7 +30,8 @@ public:
         std::map<TfToken, Primvar> primvars;
         VtArray<TfToken> categories;                      ///< collections of lights that it is in
         std::vector<VtArray<TfToken>> instanceCategories; ///< of an instancer
-        std::map<TfToken, VtValue> params;                ///< of a light, camera or computation
+        std::map<TfToken, VtValue> params;                ///< of a light, camera, computation or field
+        HdVolumeFieldDescriptorVector fields;             ///< of a volume
         std::map<SdfPath, VtIntArray> indices;            ///< of an instancer, by prototype
         VtValue resource;                                 ///< of a material
         PxOsdSubdivTags tags;
@@ -53,6 +54,11 @@ public:
     Prim& addCurve(SdfPath const& id, GfVec3f const& color);
     /// Adds two points at x = -0.25 and 0.25, 0.4 wide, each of its colour.
     Prim& addPoints(SdfPath const& id, VtVec3fArray const& colors, SdfPath const& instancer = SdfPath());
+    /// Adds a volume without fields.
+    Prim& addVolume(SdfPath const& id, SdfPath const& instancer = SdfPath());
+    /// Adds a field and gives it to a volume for what `name` says.
+    Prim& addField(SdfPath const& id, std::string const& file, SdfPath const& volume,
+                   char const* name = "density");
     /// Adds an instancer of `prototype` with a translation per instance.
     Prim& addInstancer(SdfPath const& id, SdfPath const& prototype, VtVec3fArray const& translations,
                        SdfPath const& parent = SdfPath());
@@ -105,6 +111,9 @@ public:
     VtIntArray GetInstanceIndices(SdfPath const& id, SdfPath const& prototype) override;
     VtValue GetLightParamValue(SdfPath const& id, TfToken const& name) override;
     VtValue GetCameraParamValue(SdfPath const& id, TfToken const& name) override { return param(id, name); }
+    HdVolumeFieldDescriptorVector GetVolumeFieldDescriptors(SdfPath const& id) override {
+        return prim(id).fields;
+    }
     HdReprSelector GetReprSelector(SdfPath const& id) override { return prim(id).repr; }
     HdRenderBufferDescriptor GetRenderBufferDescriptor(SdfPath const& id) override { return prim(id).buffer; }
     TfTokenVector GetExtComputationSceneInputNames(SdfPath const&) override { return {TfToken("offset")}; }
