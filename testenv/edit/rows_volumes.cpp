@@ -1,6 +1,7 @@
 // Volumes: their fields, looks, places and instances. The scene gets one first, so that the other rows need
 // not draw it.
 #include <filesystem>
+#include <set>
 
 #include <unistd.h>
 
@@ -26,12 +27,23 @@ std::string fileOf(const char* name, double thickness) {
     heat = smoke;
     heat.name = "heat";
     heat.value = [](glm::ivec3 p) { return 1.0 + 0.1 * p.y; };
-    if (!std::filesystem::exists(path)) { // another shard may be reading it
+    static std::set<std::string> done;
+    if (done.insert(path).second) { // another shard may be reading it
         const std::string written = path + "." + std::to_string(getpid());
         writeVdb(written, {smoke, heat});
         std::filesystem::rename(written, path);
     }
     return path;
+}
+
+std::string thickDensity() {
+    return R"(
+        def OpenVDBAsset "density" {
+            asset filePath = @)" +
+           fileOf("thick", 2) + R"(@
+            token fieldName = "density"
+        }
+)";
 }
 
 /// Two volumes in front of the scene, and a material that they may be bound to.
@@ -56,22 +68,14 @@ Edit someFog() {
         float primvars:hipr:volume:density = 1.5
         double3 xformOp:translate = (1.5, 1.5, 1)
         uniform token[] xformOpOrder = ["xformOp:translate"]
-        def OpenVDBAsset "density" {
-            asset filePath = @)" +
-                fileOf("thick", 2) + R"(@
-            token fieldName = "density"
-        }
-    }
+)" + thickDensity() +
+                R"(    }
     def Volume "Mist" {
         rel field:density = </World/Mist/density>
         double3 xformOp:translate = (2.4, 1.8, 0.8)
         uniform token[] xformOpOrder = ["xformOp:translate"]
-        def OpenVDBAsset "density" {
-            asset filePath = @)" +
-                fileOf("thick", 2) + R"(@
-            token fieldName = "density"
-        }
-    }
+)" + thickDensity() +
+                R"(    }
 })");
 }
 
@@ -85,12 +89,8 @@ Edit someCopies() {
         float3[] scales = [(0.7, 0.7, 0.7), (0.5, 0.6, 0.8)]
         def Volume "Fog" {
             rel field:density = </World/Copies/Fog/density>
-            def OpenVDBAsset "density" {
-                asset filePath = @)" +
-                fileOf("thick", 2) + R"(@
-                token fieldName = "density"
-            }
-        }
+)" + thickDensity() +
+                R"(        }
     }
 })");
 }

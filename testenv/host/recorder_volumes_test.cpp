@@ -108,6 +108,25 @@ TEST_F(RecorderVolumes, AbsorbAsTheirPrimvarsMaterialsAndInstancersSay) {
     EXPECT_NEAR(shownAt(image, "R", 1.8), 1.f, 1e-4f);
 }
 
+TEST_F(RecorderVolumes, FollowTheirFilesOverTime) {
+    VdbGrid thick;
+    thick.lo = glm::ivec3(-10);
+    thick.hi = glm::ivec3(10);
+    thick.spacing = glm::dvec3(0.05);
+    thick.value = [](glm::ivec3) { return 3.0; };
+    writeVdb(file("thick.vdb"), {thick});
+    std::string stage = Stage;
+    const std::string still = "asset filePath = @./box.vdb@";
+    stage.replace(stage.find(still), still.size(),
+                  "asset filePath.timeSamples = {\n1: @./box.vdb@,\n2: @./thick.vdb@,\n}");
+    write("animated.usda", stage);
+    const Outcome outcome = run(command({file("animated.usda"), "-o", file("f.#.exr"), "--frames", "1:2",
+                                         "--size", "80x40", "--samples", "64"}));
+    ASSERT_EQ(outcome.code, 0) << outcome.text;
+    EXPECT_NEAR(shownAt(ImageFile(file("f.1.exr")), "R", -1.5), std::exp(-1.05f), 0.03f);
+    EXPECT_NEAR(shownAt(ImageFile(file("f.2.exr")), "R", -1.5), std::exp(-3.15f), 0.03f);
+}
+
 TEST_F(RecorderVolumes, PackagesGiveTheSamePicture) {
     auto package = PXR_NS::UsdZipFileWriter::CreateNew(file("stage.usdz"));
     package.AddFile(file("stage.usda"), "stage.usda");
