@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/gtc/constants.hpp>
 
@@ -56,8 +57,8 @@ uint32_t seedOf(const std::string& name, uint32_t instance) {
 Change VolumeTable::setField(FieldId id, std::shared_ptr<const FieldGrid> grid) {
     const auto [it, added] = _fields.try_emplace(id);
     Field& field = it->second;
-    if (!added && (field.grid == grid || equal(*field.grid, *grid))) return Change::None;
-    field = {std::move(grid), nullptr};
+    if (!added && !field.refused && (field.grid == grid || equal(*field.grid, *grid))) return Change::None;
+    field = {std::move(grid), nullptr, false};
     fieldChanged(id);
     return added ? Change::Added : Change::Geometry;
 }
@@ -134,10 +135,11 @@ void VolumeTable::updateBox(VolumeEntry& entry) const {
         if (const Field* field = shownField(id)) entry.box.add(boxOf(*field->grid));
 }
 
-/// Null: there is nothing in it.
+/// Null: there is nothing in it, or no memory for it.
 const VolumeTable::Field* VolumeTable::shownField(FieldId id) const {
     const auto it = _fields.find(id);
-    return it == _fields.end() || it->second.grid->index.empty() ? nullptr : &it->second;
+    const bool shown = it != _fields.end() && !it->second.refused && !it->second.grid->index.empty();
+    return shown ? &it->second : nullptr;
 }
 
 void VolumeTable::reportTriples(VolumeEntry& entry) {
@@ -154,12 +156,25 @@ void VolumeTable::reportTriples(VolumeEntry& entry) {
     }
 }
 
-void VolumeTable::upload(Field& field) {
+void VolumeTable::upload(FieldId id, Field& field) {
     const FieldGrid& grid = *field.grid;
-    if (field.device || grid.index.empty()) return;
+    if (field.device || field.refused || grid.index.empty()) return;
     std::weak_ptr<DeviceGrid>& shared = _uploaded[&grid];
     field.device = shared.lock();
     if (field.device) return;
+    try {
+        shared = field.device = toDevice(grid);
+    } catch (const OutOfMemory& e) { // one field too large must not be the end of the picture
+        field.refused = true;
+        for (const VolumeId volume : showing(id))
+            _device.messages()(Severity::Error, _volumes.at(volume).desc.name,
+                               std::string(e.what()) + "; it has no " + grid.name);
+    }
+}
+
+std::shared_ptr<VolumeTable::DeviceGrid> VolumeTable::toDevice(const FieldGrid& grid) {
+    if (grid.values.size() > std::numeric_limits<uint32_t>::max())
+        throw OutOfMemory("kernels cannot number " + std::to_string(grid.values.size()) + " values");
     std::vector<gpu::BrickEntry> entries(grid.index.size());
     for (size_t i = 0; i < entries.size(); ++i)
         entries[i] = {grid.index[i], grid.largest[i]};
@@ -171,7 +186,7 @@ void VolumeTable::upload(Field& field) {
     _device.upload(device->buffer, grid.values.data(), valueBytes, entryBytes);
     device->entries = device->buffer.address();
     device->values = device->entries + entryBytes;
-    shared = field.device = std::move(device);
+    return device;
 }
 
 void VolumeTable::uploadBlackbody() {
@@ -242,7 +257,7 @@ void VolumeTable::commit(std::vector<VolumePlacement> placements) {
     _changed = false;
     _placements = std::move(placements);
     for (auto& [id, field] : _fields)
-        upload(field);
+        upload(id, field);
     for (auto it = _uploaded.begin(); it != _uploaded.end();)
         it = it->second.expired() ? _uploaded.erase(it) : std::next(it);
     for (auto& [id, entry] : _volumes)

@@ -74,14 +74,16 @@ private:
     };
     struct Field {
         std::shared_ptr<const FieldGrid> grid;
-        std::shared_ptr<DeviceGrid> device; ///< null: to be uploaded, or empty
+        std::shared_ptr<DeviceGrid> device; ///< null: to be uploaded, empty, or refused
+        bool refused = false;               ///< it does not fit into memory
     };
 
     void fieldChanged(FieldId id);
     void reportTriples(VolumeEntry& entry);
     void updateBox(VolumeEntry& entry) const;
     const Field* shownField(FieldId id) const;
-    void upload(Field& field);
+    void upload(FieldId id, Field& field);
+    std::shared_ptr<DeviceGrid> toDevice(const FieldGrid& grid);
     void uploadBlackbody();
     gpu::FieldRecord fieldRecord(FieldId id, const glm::mat4x3& objectToWorld) const;
     gpu::VolumeRecord record(const VolumePlacement& placement) const;

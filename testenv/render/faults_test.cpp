@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "renderer/volumes/field_builder.h"
 #include "testenv/common/allocation_faults.h"
 #include "testenv/common/vulkan_faults.h"
 #include "testenv/render/scene_kit.h"
@@ -262,6 +263,51 @@ TEST(Films, OneThatDoesNotFitIsRefused) {
     stage.render();
     EXPECT_EQ(stage.renderer->progress().samplesDone, 2u);
     EXPECT_GT(mean(stage.color()).w, 0.99f);
+    EXPECT_EQ(stage.messages().size(), 1u);
+}
+
+/// Dense fog around the camera.
+void addFog(Stage& stage) {
+    FieldBuilder fog("fog", 1, glm::dmat4x3(1.0));
+    for (int i = 0; i < 8; ++i) {
+        std::vector<float> values(FieldGrid::BrickPoints, 100.f);
+        fog.add({i % 2 - 1, i / 2 % 2 - 1, i / 4 - 1}, values);
+    }
+    VolumeDesc desc;
+    desc.name = "/fog";
+    desc.density = FieldId(900);
+    stage.edit.setField(FieldId(900), fog.finish());
+    stage.edit.setVolume(VolumeId(901), desc);
+    ObjectDesc object;
+    object.name = "/fog";
+    object.volume = VolumeId(901);
+    stage.edit.setObject(ObjectId(902), object);
+    stage.edit.setInstances(ObjectId(902), {{glm::mat4x3(1.f)}, {}, {}, {}});
+}
+
+/// A field for which there is no memory is told with its volume, and the rest renders.
+TEST(Volumes, AFieldThatDoesNotFitIsLeftOut) {
+    Stage stage(settingsFor("auto"));
+    stage.add(quadMesh(), matte(glm::vec3(0.5f)), {scaling(9, 9, 1)});
+    stage.add(LightDesc());
+    stage.edit.setCamera(lookAt({0, 0, 4}, {0, 0, 0}));
+    stage.film(8, 8);
+    stage.render();
+    const ColorPicture clear = stage.color();
+    addFog(stage);
+    {
+        const VulkanFault full(Fault::OutOfMemory, 1); // the buffer of the field is the first
+        stage.renderer->commit(stage.edit);
+    }
+    stage.render();
+    EXPECT_FALSE(stage.renderer->progress().failed);
+    ASSERT_EQ(stage.messages().size(), 1u);
+    EXPECT_EQ(stage.messages()[0].subject, "/fog");
+    EXPECT_THAT(stage.messages()[0].text, testing::HasSubstr("it has no fog"));
+    EXPECT_TRUE(sameBits(stage.color(), clear));
+    addFog(stage); // with as much memory as it needs
+    stage.render();
+    EXPECT_FALSE(sameBits(stage.color(), clear));
     EXPECT_EQ(stage.messages().size(), 1u);
 }
 

@@ -132,4 +132,15 @@ TEST_F(Volumes, sayWhatIsWrongWithTheirFields) {
                     AllOf(HasSubstr("</bare>"), HasSubstr("nothing is seen"))));
 }
 
+TEST_F(Volumes, motionWhileAShutterIsOpenIsNamed) {
+    auto& params = host.scene().addCamera(SdfPath("/volume_camera"), 3.0).params;
+    params[TfToken("shutterOpen")] = VtValue(-0.25);
+    params[TfToken("shutterClose")] = VtValue(0.25);
+    add("/still_fog", box("still_fog", 1));
+    add("/moving_fog", box("moving_fog", 1)).shutterMotion.SetTranslate(GfVec3d(1, 0, 0));
+    ASSERT_TRUE(host.render());
+    EXPECT_THAT(warnings.texts(),
+                ElementsAre(AllOf(HasSubstr("</moving_fog>"), HasSubstr("volumes are not blurred"))));
+}
+
 } // namespace
