@@ -83,14 +83,8 @@ void HdHiprVolume::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, H
         sendObject(delegate, param);
     }
     if (relinked || (bits & instanceBits)) {
-        hipr::InstancesDesc placed = readInstances(*delegate, GetId(), GetInstancerId(), param.shutterOpen());
-        if (!placed.motion.times.empty()) {
-            warnOnce(GetId().GetString(),
-                     "it moves while the camera's shutter is open, and volumes are not blurred; "
-                     "it stands still where it is at the frame's time");
-        }
-        placed.motion = {};
-        param.edit().setInstances(_object, std::move(placed));
+        param.edit().setInstances(_object,
+                                  readInstances(*delegate, GetId(), GetInstancerId(), param.shutterOpen()));
     }
     *dirtyBits = HdChangeTracker::Clean;
 }

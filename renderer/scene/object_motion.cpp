@@ -80,7 +80,7 @@ void ObjectTable::uploadKeys() {
 
 /// The world box of a committed instance at all times, counted among those that can be rendered.
 WorldBox ObjectTable::placedBox(const Entry& entry, uint32_t i) const {
-    const uint32_t keys = entry.placed.keyCount;
+    const uint32_t keys = entry.volumes.empty() ? entry.placed.keyCount : entry.keyCount;
     if (keys == 0) return boxOf(entry.meshBox, placedTransform(entry, i));
     WorldBox box;
     for (uint32_t k = 0; k < keys; ++k)

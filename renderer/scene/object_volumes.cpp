@@ -34,11 +34,13 @@ void ObjectTable::placeVolumes(ObjectId id, Entry& entry, const VolumeEntry* sho
     entry.boundsPending = false;
     const std::vector<MaterialId>& materials = entry.desc->materials;
     for (const uint32_t source : entry.usable) {
+        const auto keys = entry.keys.begin() + ptrdiff_t(entry.volumes.size() * entry.keyCount);
         const bool hasIds = entry.instances && source < entry.instances->instanceIds.size();
         VolumePlacement placement;
         placement.volume = entry.desc->volume;
         placement.material = materials.empty() ? MaterialId::None : materials.front();
         if (entry.instances) placement.objectToWorld = entry.instances->transforms[source];
+        placement.keys.assign(keys, keys + entry.keyCount);
         placement.object = uint32_t(id);
         placement.instance = source;
         placement.categories = categoriesOf(entry, source);

@@ -200,13 +200,13 @@ void VolumeTable::uploadBlackbody() {
     _blackbody = _device.createFrom(table.data(), table.size(), "Volumes");
 }
 
-gpu::FieldRecord VolumeTable::fieldRecord(FieldId id, const glm::mat4x3& objectToWorld) const {
+gpu::FieldRecord VolumeTable::fieldRecord(FieldId id, const glm::mat4x3& toPlaced) const {
     gpu::FieldRecord record{};
     const Field* field = shownField(id);
     if (!field) return record;
-    glm::dmat4 m = glm::inverse(square(glm::dmat4x3(objectToWorld)) * square(field->grid->latticeToObject));
+    glm::dmat4 m = glm::inverse(square(glm::dmat4x3(toPlaced)) * square(field->grid->latticeToObject));
     m[3] -= glm::dvec4(glm::dvec3(field->grid->first), 0);
-    record.worldToCells = glm::mat4x3(m);
+    record.placedToCells = glm::mat4x3(m);
     record.entries = field->device->entries;
     record.values = field->device->values;
     record.bricks = field->grid->bricks;
@@ -215,16 +215,16 @@ gpu::FieldRecord VolumeTable::fieldRecord(FieldId id, const glm::mat4x3& objectT
 }
 
 void VolumeTable::setGlow(gpu::VolumeRecord& record, const VolumeDesc& desc, const VolumeLook& look,
-                          const glm::mat4x3& objectToWorld) const {
+                          const glm::mat4x3& toPlaced) const {
     if (look.emission == glm::vec3(0.f)) return;
-    record.temperature = fieldRecord(desc.temperature, objectToWorld);
+    record.temperature = fieldRecord(desc.temperature, toPlaced);
     FieldId source = FieldId::None;
     if (shownField(desc.emission))
         source = desc.emission;
     else if (look.emissionByDensity)
         source = desc.density;
     record.flags = source != FieldId::None ? gpu::VOLUME_EMISSION_SCALED : 0;
-    record.glow = fieldRecord(source != FieldId::None ? source : desc.temperature, objectToWorld);
+    record.glow = fieldRecord(source != FieldId::None ? source : desc.temperature, toPlaced);
 }
 
 gpu::VolumeRecord VolumeTable::record(const VolumePlacement& placement) const {
@@ -237,12 +237,14 @@ gpu::VolumeRecord VolumeTable::record(const VolumePlacement& placement) const {
     record.scattering = glm::max(look.scattering, 0.f);
     record.extinction = record.scattering + glm::max(look.absorption, 0.f);
     record.densest = std::max({record.extinction.x, record.extinction.y, record.extinction.z});
-    if (record.densest > 0.f) record.density = fieldRecord(desc.density, placement.objectToWorld);
-    record.color = fieldRecord(desc.color, placement.objectToWorld);
+    // Kernels bring rays to the object space of what moves.
+    const glm::mat4x3 toPlaced = placement.keys.empty() ? placement.objectToWorld : glm::mat4x3(1.f);
+    if (record.densest > 0.f) record.density = fieldRecord(desc.density, toPlaced);
+    record.color = fieldRecord(desc.color, toPlaced);
     record.anisotropy = std::clamp(look.anisotropy, -MostAnisotropy, MostAnisotropy);
     record.emission = glm::max(look.emission, 0.f);
     record.temperatureScale = std::max(look.temperatureScale, 0.f);
-    setGlow(record, desc, look, placement.objectToWorld);
+    setGlow(record, desc, look, toPlaced);
     record.seed = seedOf(desc.name, placement.instance);
     record.categories = placement.categories;
     record.primId = placement.primId;
@@ -250,6 +252,21 @@ gpu::VolumeRecord VolumeTable::record(const VolumePlacement& placement) const {
     record.object = placement.object;
     record.objectInstance = placement.instance;
     return record;
+}
+
+/// After the records are made, which learn where their keys are.
+void VolumeTable::uploadKeys() {
+    std::vector<glm::mat4x3> keys;
+    for (const VolumePlacement& placement : _placements)
+        keys.insert(keys.end(), placement.keys.begin(), placement.keys.end());
+    if (keys.empty()) return;
+    _keyTable = _device.createFrom(keys.data(), keys.size(), "Volumes");
+    uint64_t address = _keyTable.address();
+    for (size_t i = 0; i < _records.size(); ++i) {
+        _records[i].keyCount = uint32_t(_placements[i].keys.size());
+        _records[i].keys = address;
+        address += _records[i].keyCount * sizeof(glm::mat4x3);
+    }
 }
 
 void VolumeTable::commit(std::vector<VolumePlacement> placements) {
@@ -267,6 +284,7 @@ void VolumeTable::commit(std::vector<VolumePlacement> placements) {
         _records.push_back(record(placement));
     if (_records.empty()) return;
     uploadBlackbody();
+    uploadKeys();
     _table = _device.createFrom(_records.data(), _records.size(), "Volumes");
 }
 

@@ -21,12 +21,13 @@ struct VolumePlacement {
     VolumeId volume = VolumeId::None;
     MaterialId material = MaterialId::None;
     glm::mat4x3 objectToWorld{1.f};
-    WorldBox box; ///< in world space
+    std::vector<glm::mat4x3> keys; ///< object to world while the shutter is open; empty: it stands still
+    WorldBox box;                  ///< in world space, at all times
     uint32_t object = 0, instance = 0, categories = 0;
     int primId = -1, instanceId = 0;
     bool operator==(const VolumePlacement& o) const {
         return volume == o.volume && material == o.material && objectToWorld == o.objectToWorld &&
-               object == o.object && instance == o.instance && categories == o.categories &&
+               keys == o.keys && object == o.object && instance == o.instance && categories == o.categories &&
                primId == o.primId && instanceId == o.instanceId;
     }
 };
@@ -85,10 +86,11 @@ private:
     void upload(FieldId id, Field& field);
     std::shared_ptr<DeviceGrid> toDevice(const FieldGrid& grid);
     void uploadBlackbody();
-    gpu::FieldRecord fieldRecord(FieldId id, const glm::mat4x3& objectToWorld) const;
+    void uploadKeys();
+    gpu::FieldRecord fieldRecord(FieldId id, const glm::mat4x3& toPlaced) const;
     gpu::VolumeRecord record(const VolumePlacement& placement) const;
     void setGlow(gpu::VolumeRecord& record, const VolumeDesc& desc, const VolumeLook& look,
-                 const glm::mat4x3& objectToWorld) const;
+                 const glm::mat4x3& toPlaced) const;
 
     Device& _device;
     std::map<FieldId, Field> _fields;
@@ -97,7 +99,7 @@ private:
     std::map<const FieldGrid*, std::weak_ptr<DeviceGrid>> _uploaded;
     std::vector<VolumePlacement> _placements;
     std::vector<gpu::VolumeRecord> _records;
-    Buffer _table, _blackbody;
+    Buffer _table, _keyTable, _blackbody;
     uint32_t _revisions = 0;
     bool _changed = false;
 };

@@ -15,7 +15,7 @@ struct BrickEntry {
 
 // A field of one volume where it is placed. Its space is that of cells: brick (x, y, z) fills [8 x, 8 x + 8] and so on.
 struct FieldRecord {
-    mat4x3 worldToCells;
+    mat4x3 placedToCells;    // from world space; of volumes that move from object space
     uint64_t entries;        // BrickEntry[bricks.x * bricks.y * bricks.z], x fastest; 0: no such field
     uint64_t values;         // float[][BRICK_VALUES][channels]
     uvec3 bricks;
@@ -26,7 +26,7 @@ HIPR_CONST uint VOLUME_EMISSION_SCALED = 1u; // by the values of the field that 
 
 // One placement of one volume.
 struct VolumeRecord {
-    vec3 boxMin;             // in world space: nothing of it lies outside
+    vec3 boxMin;             // in world space: nothing of it lies outside while the shutter is open
     vec3 boxMax;
     FieldRecord density;
     FieldRecord glow;        // where it emits: emission, density or temperature
@@ -45,7 +45,8 @@ struct VolumeRecord {
     int instanceId;
     uint object;             // as in InstanceRecord
     uint objectInstance;
-    uint pad;
+    uint keyCount;           // 0: stands still; else see motion.h
+    uint64_t keys;           // mat4x3[keyCount]: object to world while the shutter is open
 };
 
 // What black bodies send, by temperature: BLACKBODY_STEPS values from 0 to BLACKBODY_LARGEST kelvin, interpolated between,

@@ -17,7 +17,7 @@ vec3 blackbodyRadiance(SceneRecord scene, float kelvin) {
     return mix(table.v[i], table.v[i + 1u], at - float(i)) * fourth;
 }
 
-// The emission of one volume along a ray up to tMax: the sum over a comb of equidistant points, of which `u` says where it
+// The emission of one volume along a placed ray up to tMax: the sum over a comb of equidistant points, of which `u` says where it
 // begins, so that its mean is the integral.
 vec3 emissionOfVolume(SceneRecord scene, uint index, Ray ray, float tMax, float u) {
     const FieldRecord glow = VolumeRef(scene.volumes).v[index].glow;
@@ -51,7 +51,7 @@ vec3 emissionAlong(TraceRecord trace, SceneRecord scene, Path path, Ray ray, flo
         if (VolumeRef(scene.volumes).v[k].glow.entries == 0ul) continue;
         if (!meetsVolume(scene.volumes, k, ray.origin, inverse, ray.tMin, tMax)) continue;
         const uint set = hashCombine(VolumeRef(scene.volumes).v[k].seed, 0x80000000u + path.event);
-        sum += emissionOfVolume(scene, k, ray, tMax, sobol4(path.pixel, path.sampleIndex, set, trace.seed).x);
+        sum += emissionOfVolume(scene, k, placedRay(scene.volumes, k, ray), tMax, sobol4(path.pixel, path.sampleIndex, set, trace.seed).x);
     }
     return sum;
 }

@@ -4,6 +4,7 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "shared/references.glsl"
 #include "shared/volume.h"
+#include "accel/motion.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer BrickEntryRef { BrickEntry v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer VolumeRef { VolumeRecord v[]; };
@@ -47,9 +48,9 @@ vec3 interpolateInBrick(FieldRecord field, uint brick, vec3 p) {
     return vec3(first, interpolateChannel(field, point, 1u), interpolateChannel(field, point, 2u));
 }
 
-// The value at a point of the world; 0 outside of all bricks.
+// The value at a point of placed space; 0 outside of all bricks.
 vec3 fieldValue(FieldRecord field, vec3 position) {
-    const vec3 p = field.worldToCells * vec4(position, 1.0);
+    const vec3 p = field.placedToCells * vec4(position, 1.0);
     const vec3 size = vec3(field.bricks * BRICK_CELLS);
     if (field.entries == 0ul || any(lessThan(p, vec3(0.0))) || any(greaterThan(p, size))) return vec3(0.0);
     const uvec3 b = min(uvec3(p) / BRICK_CELLS, field.bricks - 1u);
@@ -73,8 +74,8 @@ const float FIELD_FAR = 1e30;
 
 // Whether the part of a ray from tMin to tMax comes through the bricks of a field.
 bool beginWalk(FieldRecord field, vec3 origin, vec3 direction, float tMin, float tMax, out FieldWalk walk) {
-    walk.origin = field.worldToCells * vec4(origin, 1.0);
-    walk.direction = mat3(field.worldToCells) * direction;
+    walk.origin = field.placedToCells * vec4(origin, 1.0);
+    walk.direction = mat3(field.placedToCells) * direction;
     const bvec3 level = lessThan(abs(walk.direction), vec3(1e-20));
     const vec3 inverse = 1.0 / mix(walk.direction, vec3(1e-20), level);
     const vec3 size = vec3(field.bricks * BRICK_CELLS);
@@ -138,6 +139,16 @@ bool meetsVolume(uint64_t volumes, uint index, vec3 origin, vec3 inverse, float 
 // The inverse of a direction, for meetsVolume.
 vec3 inverseDirection(vec3 d) {
     return 1.0 / mix(d, vec3(1e-20), lessThan(abs(d), vec3(1e-20)));
+}
+
+// A ray of the world as the fields of a volume want it. Distances along it stay those of the world.
+Ray placedRay(uint64_t volumes, uint index, Ray ray) {
+    const uint keyCount = VolumeRef(volumes).v[index].keyCount;
+    if (keyCount == 0u) return ray;
+    const mat4x3 toObject = inverseTransform(transformAt(VolumeRef(volumes).v[index].keys, 0u, keyCount, ray.time));
+    ray.origin = toObject * vec4(ray.origin, 1.0);
+    ray.direction = mat3(toObject) * ray.direction;
+    return ray;
 }
 
 // Distances that are exponentially distributed around 1.

@@ -9,7 +9,7 @@
 // Rays with less than this left go on by chance.
 const float LEAST_SHARE = 0.1;
 
-// An estimate of the share of light that gets through a volume between two points of a ray.
+// An estimate of the share of light that gets through a volume between two points of a placed ray.
 vec3 throughVolume(uint64_t volumes, uint index, Ray ray, float u, uint random) {
     const FieldRecord density = VolumeRef(volumes).v[index].density;
     const vec3 extinction = VolumeRef(volumes).v[index].extinction;
@@ -48,7 +48,7 @@ void main() {
         if (!meetsVolume(scene.volumes, k, ray.origin, inverse, ray.tMin, ray.tMax)) continue;
         const uint set = hashCombine(VolumeRef(scene.volumes).v[k].seed, 2u * event + 1u);
         const vec4 u = sobol4(uvec2(pixel & 0xffffu, pixel >> 16), sample_, set, trace.seed);
-        share *= throughVolume(scene.volumes, k, ray, u.x, floatBitsToUint(u.y) ^ hashUint(pixel) ^ set);
+        share *= throughVolume(scene.volumes, k, placedRay(scene.volumes, k, ray), u.x, floatBitsToUint(u.y) ^ hashUint(pixel) ^ set);
     }
     works.v[i].contribution *= share;
     if (share == vec3(0.0)) SlotRef(trace.shadowResults).v[i] = 1u;

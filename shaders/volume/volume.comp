@@ -21,7 +21,7 @@ float flightNumber(TraceRecord trace, Path path, uint seed, out uint random) {
     return u.x;
 }
 
-// Where a ray collides with a volume before tMax, or tMax.
+// Where a placed ray collides with a volume before tMax, or tMax.
 float collide(TraceRecord trace, SceneRecord scene, Path path, Ray ray, uint index, float tMax) {
     const FieldRecord density = VolumeRef(scene.volumes).v[index].density;
     const float densest = VolumeRef(scene.volumes).v[index].densest;
@@ -44,7 +44,7 @@ float firstCollision(TraceRecord trace, SceneRecord scene, Path path, Ray ray, f
     met = NO_INDEX;
     [[dont_unroll]] for (uint k = 0u; k < scene.volumeCount; ++k) {
         if (!meetsVolume(scene.volumes, k, ray.origin, inverse, ray.tMin, tMax)) continue;
-        const float t = collide(trace, scene, path, ray, k, tMax);
+        const float t = collide(trace, scene, path, placedRay(scene.volumes, k, ray), k, tMax);
         if (t < tMax) tMax = t, met = k;
     }
     return tMax;
@@ -87,8 +87,10 @@ bool scatterInVolume(TraceRecord trace, SceneRecord scene, inout Path path, inou
     const float densest = VolumeRef(scene.volumes).v[index].densest;
     vec3 scattered = VolumeRef(scene.volumes).v[index].scattering / densest;
     const vec3 passed = 1.0 - VolumeRef(scene.volumes).v[index].extinction / densest;
-    if (VolumeRef(scene.volumes).v[index].color.entries != 0ul)
-        scattered *= min(fieldValue(VolumeRef(scene.volumes).v[index].color, position), 1.0);
+    if (VolumeRef(scene.volumes).v[index].color.entries != 0ul) {
+        const Ray placed = placedRay(scene.volumes, index, ray);
+        scattered *= min(fieldValue(VolumeRef(scene.volumes).v[index].color, placed.origin + t * placed.direction), 1.0);
+    }
     const vec4 u = randomVector(trace, path, RANDOM_BSDF);
     const float on = dot(path.throughput, passed), share = dot(path.throughput, scattered) + on;
     if (path.event - path.depth >= MEDIUM_STEP_LIMIT) return false;

@@ -132,6 +132,9 @@ float3[] scales = [(0.7, 0.7, 0.7)])"),
          someCopies()},
         {"VolumeInstancesFile", in(copies + "/Fog/density", "asset filePath = @" + fileOf("thin", 0.5) + "@"),
          someCopies()},
+        {"VolumeMotion",
+         in(fog, "double3 xformOp:translate.timeSamples = {\n4: (1.2, 1.5, 1),\n6: (1.9, 1.6, 1),\n}"),
+         all({someFog(), time(5), in("/Camera", "double shutter:open = -0.5\ndouble shutter:close = 0.5")})},
         row("VolumeBesideAMesh", in("/World/Geo/Cube", "double3 xformOp:translate = (1.5, 1.5, 1)")),
     };
 }
