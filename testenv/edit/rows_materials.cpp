@@ -177,6 +177,9 @@ Rows networks() {
         {"NetworkDisconnected", removeProperty(reader + "/Surface.inputs:diffuseColor")},
         {"NetworkConnected",
          in(glossy, "color3f inputs:diffuseColor.connect = </World/Looks/Textured/Color.outputs:rgb>")},
+        {"NetworkOfAnotherMaterialEdited", in(looks + "Textured/Color", R"(token inputs:wrapT = "mirror")"),
+         in(glossy, "color3f inputs:diffuseColor.connect = </World/Looks/Textured/Color.outputs:rgb>"), true,
+         "it tells of an edited node only the material that it lies in"},
         {"NetworkConnectedInside",
          all({in(looks + "Red",
                  R"(def Shader "R" { uniform token info:id = "UsdPrimvarReader_float3"
