@@ -12,6 +12,23 @@ namespace hdhipr {
 
 using hipr::AovKind;
 
+namespace {
+
+/// "CryptoObject00" and the like.
+std::optional<hipr::AovRequest> cryptomatteRequest(std::string const& name) {
+    for (auto const& [stem, kind] : cryptomatteKinds) {
+        const std::string prefix = std::string(stem) + "0"; // there are less than ten layers
+        const bool fits = name.size() == prefix.size() + 1 && name.compare(0, prefix.size(), prefix) == 0;
+        const unsigned layer = fits ? unsigned(name.back()) - '0' : hipr::CryptomatteLayers;
+        if (layer < hipr::CryptomatteLayers) {
+            return hipr::AovRequest{kind, {}, layer};
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
 std::optional<hipr::AovRequest> aovRequest(TfToken const& name) {
     static const std::unordered_map<TfToken, AovKind, TfToken::HashFunctor> kinds = {
         {HdAovTokens->color, AovKind::Color},
@@ -35,6 +52,9 @@ std::optional<hipr::AovRequest> aovRequest(TfToken const& name) {
     if (found != kinds.end()) {
         return hipr::AovRequest{found->second, {}};
     }
+    if (const auto cryptomatte = cryptomatteRequest(name.GetString())) {
+        return cryptomatte;
+    }
     const HdParsedAovToken parsed(name);
     if (parsed.isPrimvar) {
         return hipr::AovRequest{AovKind::Primvar, parsed.name.GetString()};
@@ -54,6 +74,10 @@ HdAovDescriptor aovDescriptor(TfToken const& name) {
         return unknown;
     }
     switch (request->kind) {
+    case AovKind::CryptoObject:
+    case AovKind::CryptoMaterial:
+    case AovKind::CryptoAsset:
+        return HdAovDescriptor(HdFormatFloat32Vec4, false, VtValue(GfVec4f(0.f)));
     case AovKind::Color:
         return HdAovDescriptor(HdFormatFloat32Vec4, true, VtValue(GfVec4f(0.f)));
     case AovKind::Depth:
@@ -87,7 +111,8 @@ HdAovDescriptor aovDescriptor(TfToken const& name) {
 bool changesWithSamples(AovKind kind) {
     return kind == AovKind::Color || kind == AovKind::Albedo || kind == AovKind::Variance ||
            kind == AovKind::SampleCount || kind == AovKind::Priority || kind == AovKind::Age ||
-           kind == AovKind::Discovered;
+           kind == AovKind::Discovered || kind == AovKind::CryptoObject || kind == AovKind::CryptoMaterial ||
+           kind == AovKind::CryptoAsset;
 }
 
 } // namespace hdhipr

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include "pxr/base/vt/value.h"
 #include "pxr/imaging/hd/aov.h"
@@ -12,6 +13,12 @@
 PXR_NAMESPACE_OPEN_SCOPE
 
 namespace hdhipr {
+
+/// Cryptomatte's AOVs are these names with the number of a layer, "CryptoObject00" to "CryptoAsset02".
+constexpr std::pair<const char*, hipr::AovKind> cryptomatteKinds[] = {
+    {"CryptoObject", hipr::AovKind::CryptoObject},
+    {"CryptoMaterial", hipr::AovKind::CryptoMaterial},
+    {"CryptoAsset", hipr::AovKind::CryptoAsset}};
 
 /// The renderer's AOV of that name, or nothing for a name HiPR does not know (lpe:*, shader:*, edgeId...).
 std::optional<hipr::AovRequest> aovRequest(TfToken const& name);

@@ -35,6 +35,7 @@ namespace {
 const char* const deviceKey = "hipr:device";
 const char* const everyBatchKey = "hipr:publishEveryBatch";
 const char* const sceneDumpKey = "hipr:sceneDump";
+const char* const cryptomatteKey = "hipr:cryptomatte:"; // and the AOV: the names of its manifest
 const char* const dataWindowKey = "hipr:dataWindow";
 
 hipr::RendererOptions rendererOptions(HdRenderSettingsMap const& settings) {
@@ -231,8 +232,18 @@ void HdHiprRenderDelegate::SetRenderSetting(TfToken const& key, VtValue const& v
 VtValue HdHiprRenderDelegate::GetRenderSetting(TfToken const& key) const {
     if (key == sceneDumpKey && _param->canRender()) {
         std::ostringstream text;
-        _param->loop()->dumpScene(text);
+        _param->loop()->whenIdle([&](hipr::Renderer& renderer) { renderer.dumpScene(text); });
         return VtValue(text.str());
+    }
+    for (auto const& [stem, kind] : cryptomatteKinds) {
+        if (_param->canRender() && key == std::string(cryptomatteKey) + stem) {
+            VtArray<std::string> names;
+            _param->loop()->whenIdle([&, of = kind](hipr::Renderer& renderer) {
+                const std::vector<std::string> list = renderer.cryptomatteNames(of);
+                names.assign(list.begin(), list.end());
+            });
+            return VtValue(names);
+        }
     }
     const VtValue value = readRenderSetting(_settings, key);
     return value.IsEmpty() ? HdRenderDelegate::GetRenderSetting(key) : value;

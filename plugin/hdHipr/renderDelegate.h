@@ -42,8 +42,9 @@ public:
 
     /// Settings of the table restart the picture when, and only when, their value changes. Other keys are
     /// kept for GetRenderSetting and have no effect; unknown keys that begin with `hipr:` are reported.
-    /// Three keys are no settings but doors for recorders and tests: `hipr:publishEveryBatch` (bool; see
-    /// RenderLoop); `hipr:sceneDump`, which reads as the text of hipr::Renderer::dumpScene(); and
+    /// Some keys are no settings but doors for recorders and tests: `hipr:publishEveryBatch` (bool; see
+    /// RenderLoop); `hipr:sceneDump`, which reads as the text of hipr::Renderer::dumpScene();
+    /// `hipr:cryptomatte:CryptoObject` and its like, which read as hipr::Renderer::cryptomatteNames(); and
     /// `hipr:dataWindow` (GfVec4f: xmin, ymin, xmax, ymax), the part of the camera's picture that fills the
     /// buffers, in place of what the viewport says, for hosts whose Hydra has no framing.
     void SetRenderSetting(TfToken const& key, VtValue const& value) override;

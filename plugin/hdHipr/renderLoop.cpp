@@ -140,12 +140,12 @@ hipr::ChangedSet RenderLoop::lastChanged() const {
     return _lastChanged;
 }
 
-void RenderLoop::dumpScene(std::ostream& out) {
+void RenderLoop::whenIdle(std::function<void(hipr::Renderer&)> const& look) {
     _renderer->cancel();
     _thread.StopRender();
     _renderer->resume();
     pickUp(); // the render thread is idle
-    _renderer->dumpScene(out);
+    look(*_renderer);
     kick();
 }
 

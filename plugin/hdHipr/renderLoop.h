@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -70,8 +71,8 @@ public:
     void setPublishEveryBatch(bool on) { _everyBatch.store(on); }
     uint64_t pictures() const { return _pictures.load(); }
 
-    /// Writes what the renderer holds of the scene, all edits so far included. Rendering stops meanwhile.
-    void dumpScene(std::ostream& out);
+    /// Lets `look` see the renderer with all edits so far. Rendering stops meanwhile.
+    void whenIdle(std::function<void(hipr::Renderer&)> const& look);
 
     /// Wakes the render thread when there is something to render.
     void kick();

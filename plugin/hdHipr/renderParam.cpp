@@ -9,6 +9,17 @@ PXR_NAMESPACE_OPEN_SCOPE
 
 using namespace hdhipr;
 
+namespace {
+
+/// What a prim is taken for a part of. Hydra does not tell which prims are models, so it is the second prim of
+/// the path: "/World/Chair" of "/World/Chair/Geo/Leg".
+std::string assetOf(SdfPath const& path) {
+    const SdfPathVector prefixes = path.GetPrefixes();
+    return prefixes.empty() ? std::string() : prefixes[prefixes.size() > 1 ? 1 : 0].GetString();
+}
+
+} // namespace
+
 HdHiprRenderParam::HdHiprRenderParam(hipr::RendererOptions const& options) {
     std::string error;
     std::unique_ptr<hipr::Renderer> renderer = hipr::Renderer::create(options, &error);
@@ -53,6 +64,7 @@ bool HdHiprRenderParam::included(ObjectState const& state) const {
 void HdHiprRenderParam::emitObject(hipr::ObjectId id, ObjectState const& state) {
     hipr::ObjectDesc desc = state.desc;
     desc.visible = desc.visible && included(state);
+    desc.asset = assetOf(state.path);
     _edit.setObject(id, std::move(desc));
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "plugin/record/cryptomatte.h"
+
 namespace hipr::record {
 
 namespace {
@@ -35,6 +37,11 @@ std::vector<std::string> aovChannelNames(const std::string& aov, int components,
     for (int i = 0; i < components; ++i)
         names.push_back(prefix + letters[size_t(i)]);
     return names;
+}
+
+bool isColour(const std::string& aov, int components) {
+    return components >= 3 && aov != "variance" && aov != "patchCoord" && aov.rfind("primvars:", 0) != 0 &&
+           !isGeometricVector(aov) && cryptomatteOf(aov).empty();
 }
 
 } // namespace hipr::record

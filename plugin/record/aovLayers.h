@@ -19,4 +19,7 @@ namespace hipr::record {
 std::vector<std::string> aovChannelNames(const std::string& aov, int components, bool integer,
                                          const std::string& layer = {});
 
+/// Whether an AOV is a colour, which 16 bits are enough for: no depth, position, direction, id or matte.
+bool isColour(const std::string& aov, int components);
+
 } // namespace hipr::record

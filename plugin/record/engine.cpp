@@ -4,6 +4,7 @@
 #include <cstring>
 #include <unistd.h>
 
+#include "plugin/record/cryptomatte.h"
 #include "plugin/record/failure.h"
 #include "plugin/record/recordTask.h"
 #include "pxr/base/gf/half.h"
@@ -280,6 +281,13 @@ std::string Engine::sceneDump() const {
     return text.UncheckedGet<std::string>();
 }
 
+std::vector<std::string> Engine::cryptomatteNames(const std::string& aov) const {
+    const VtValue names = _impl->delegate->GetRenderSetting(TfToken("hipr:cryptomatte:" + aov));
+    if (!names.IsHolding<VtArray<std::string>>()) return {};
+    const auto list = names.UncheckedGet<VtArray<std::string>>();
+    return {list.cbegin(), list.cend()};
+}
+
 std::vector<std::string> listRenderers() {
     std::vector<std::string> names;
     for (const HfPluginDesc& plugin : rendererPlugins())
@@ -291,6 +299,9 @@ std::vector<std::string> listAovs(const Engine& engine) {
     TfTokenVector candidates = HdAovTokens->allTokens;
     candidates.insert(candidates.end(), {TfToken("albedo"), TfToken("variance"), TfToken("sampleCount")});
     std::vector<std::string> names;
+    for (const char* stem : {"CryptoObject", "CryptoMaterial", "CryptoAsset"})
+        for (const std::string& layer : expandedAov(stem))
+            candidates.emplace_back(layer);
     for (const TfToken& token : candidates)
         if (token.GetString().back() != ':' && engine.hasAov(token.GetString()))
             names.push_back(token.GetString());

@@ -65,6 +65,9 @@ public:
     /// The text of hipr::Renderer::dumpScene(). Throws Failure with ExitUsage when the renderer is another.
     std::string sceneDump() const;
 
+    /// The names that the manifest of a Cryptomatte AOV lists; none where the renderer is another.
+    std::vector<std::string> cryptomatteNames(const std::string& aov) const;
+
 private:
     struct Impl;
     std::unique_ptr<Impl> _impl;

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
 #include <unistd.h>
 
 #include "plugin/record/aovLayers.h"
+#include "plugin/record/cryptomatte.h"
 #include "plugin/record/failure.h"
 
 namespace fs = std::filesystem;
@@ -28,6 +30,11 @@ fs::path temporaryPath(const fs::path& path) {
     throw Failure(ExitOutput, "cannot write '" + path + "': " + why);
 }
 
+OIIO::TypeDesc channelType(const Layer& layer) {
+    if (layer.integer) return OIIO::TypeUInt;
+    return layer.half && isColour(layer.aov, layer.components) ? OIIO::TypeHalf : OIIO::TypeFloat;
+}
+
 OIIO::ImageSpec exrSpec(const Picture& picture) {
     size_t channels = 0;
     for (const Layer& layer : picture.layers)
@@ -39,7 +46,7 @@ OIIO::ImageSpec exrSpec(const Picture& picture) {
              aovChannelNames(layer.aov, layer.components, layer.integer, layer.name)) {
             if (name == "A") spec.alpha_channel = int(spec.channelnames.size());
             spec.channelnames.push_back(name);
-            spec.channelformats.push_back(layer.integer ? OIIO::TypeUInt : OIIO::TypeFloat);
+            spec.channelformats.push_back(channelType(layer));
         }
     const PictureInfo& info = picture.info;
     spec.x = info.x;
@@ -58,18 +65,34 @@ OIIO::ImageSpec exrSpec(const Picture& picture) {
     spec.attribute("hipr:samples", int(info.samples));
     spec.attribute("hipr:renderTime", float(info.seconds));
     spec.attribute("hipr:settings", info.settings);
+    for (const auto& [key, value] : cryptomatteMetadata(picture))
+        spec.attribute(key, value);
     return spec;
 }
 
-std::vector<uint32_t> interleaved(const Picture& picture, int channels) {
-    const size_t pixels = size_t(picture.width) * size_t(picture.height);
-    std::vector<uint32_t> data(pixels * size_t(channels));
+/// Values as halves, which reach 65504.
+std::vector<uint16_t> halves(const Layer& layer) {
+    std::vector<float> values(layer.floats(), layer.floats() + layer.words.size());
+    for (float& value : values)
+        if (std::isfinite(value)) value = std::clamp(value, -65504.f, 65504.f);
+    std::vector<uint16_t> result(values.size());
+    OIIO::convert_pixel_values(OIIO::TypeFloat, values.data(), OIIO::TypeHalf, result.data(), int(values.size()));
+    return result;
+}
+
+/// The pixels as an EXR has them.
+std::vector<uint8_t> interleaved(const Picture& picture, const OIIO::ImageSpec& spec) {
+    const size_t pixels = size_t(picture.width) * size_t(picture.height), stride = spec.pixel_bytes(true);
+    std::vector<uint8_t> data(pixels * stride);
     size_t first = 0;
     for (const Layer& layer : picture.layers) {
-        const size_t n = size_t(layer.components);
+        const bool half = channelType(layer) == OIIO::TypeHalf;
+        const std::vector<uint16_t> small = half ? halves(layer) : std::vector<uint16_t>();
+        const void* const source = half ? static_cast<const void*>(small.data()) : layer.words.data();
+        const size_t bytes = size_t(layer.components) * (half ? 2 : 4);
         for (size_t p = 0; p < pixels; ++p)
-            std::copy_n(&layer.words[p * n], n, &data[p * size_t(channels) + first]);
-        first += n;
+            std::memcpy(&data[p * stride + first], static_cast<const uint8_t*>(source) + p * bytes, bytes);
+        first += bytes;
     }
     return data;
 }
@@ -147,7 +170,7 @@ std::string whyNotWritable(const std::string& path) {
 void writePicture(const std::string& path, const Picture& picture, const DisplayOptions& display) {
     if (imageKind(path) != "exr") return writeDisplay(path, picture, display);
     const OIIO::ImageSpec spec = exrSpec(picture);
-    const std::vector<uint32_t> data = interleaved(picture, spec.nchannels);
+    const std::vector<uint8_t> data = interleaved(picture, spec);
     writeFile(path, spec, OIIO::TypeUnknown, data.data(), OIIO::AutoStride);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@ struct Layer {
     bool integer = false;
     std::vector<uint32_t> words; ///< float bits, or two's complement ints: width * height * components
     std::string name = {};       ///< of its channels in an EXR; empty: that of the AOV
+    bool half = false;           ///< whether an EXR has 16 bits of it, where it is a colour
     const float* floats() const { return reinterpret_cast<const float*>(words.data()); }
 };
 
@@ -31,6 +33,7 @@ struct PictureInfo {
     int x = 0, y = 0; ///< where the pixels begin in the full picture, from its top left
     int fullWidth = 0, fullHeight = 0;
     float pixelAspect = 1; ///< width over height of a pixel
+    std::map<std::string, std::vector<std::string>> names = {}; ///< in the manifest of a Cryptomatte AOV
 };
 
 struct Picture {
@@ -55,7 +58,7 @@ struct DisplayOptions {
 
 /// Writes all layers (EXR) or the color AOV (PNG, JPEG). The file appears under its name only when it is
 /// complete. Integer layers become UINT channels, in which a miss (-1) reads 4294967295. Throws Failure with
-/// ExitOutput.
+/// ExitOutput. Layers of 16 bits are clamped to +-65504, as far as they are finite.
 void writePicture(const std::string& path, const Picture& picture, const DisplayOptions& display);
 
 } // namespace hipr::record

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "plugin/record/cryptomatte.h"
 #include "plugin/record/dataWindow.h"
 #include "plugin/record/failure.h"
 #include "plugin/record/frames.h"
@@ -27,7 +28,8 @@ const char* const epilogue = R"(Examples:
   hiprrecord scene.usda -o picture.png --edits edits.json   a picture after each edit of the live scene
 
 EXR files hold every AOV: color as R G B A, others as layers <aov>.X/Y/Z, .R/G/B, .Z or .V (32-bit float); ids
-as <aov>.I (unsigned int; where nothing is seen, -1 reads 4294967295). Values are scene-linear. PNG and JPEG files
+as <aov>.I (unsigned int; where nothing is seen, -1 reads 4294967295); CryptoObject, CryptoMaterial and
+CryptoAsset as three layers each, with a manifest. Values are scene-linear. PNG and JPEG files
 show color through the view transform.
 
 Exit codes: 0 done, 1 usage (also an edit that cannot be done), 2 stage cannot be read, 3 no such camera, 4 output
@@ -144,6 +146,7 @@ void addPictureOptions(CLI::App& app, Options& options, RawOptions& raw) {
     app.add_option("--aovs", raw.aovs, "AOVs to render, e.g. color,depth,normal,primId,primvars:st [color]")
         ->type_name("LIST")
         ->group("Picture");
+    app.add_flag("--half", options.half, "Write the colours of EXR files with 16 bits")->group("Picture");
     app.add_option(
            "--render-settings", options.renderSettings,
            "RenderSettings prim that names camera, size, purposes, settings and, without -o, the files "
@@ -246,7 +249,10 @@ void interpret(const RawOptions& raw, Options& options) {
     if (!raw.size.empty()) parseSize(raw.size, options);
     if (!raw.crop.empty()) options.crop = parseDataWindow(raw.crop);
     if (!raw.frames.empty()) options.frames = parseFrames(raw.frames);
-    if (!raw.aovs.empty()) options.aovs = splitCommas(raw.aovs);
+    if (!raw.aovs.empty()) options.aovs.clear();
+    for (const std::string& name : splitCommas(raw.aovs))
+        for (const std::string& aov : expandedAov(name))
+            options.aovs.push_back(aov);
     if (options.aovs.empty()) throw Failure(ExitUsage, "--aovs: no AOV given");
     for (const std::string& text : raw.masks)
         for (const std::string& path : splitCommas(text))

@@ -16,6 +16,7 @@ namespace hipr::record {
 /// An AOV, and the name of its layer in a file.
 struct LayerName {
     std::string aov, name;
+    bool half = false; ///< Layer::half
 };
 
 /// A file that a RenderProduct prim asks for.
@@ -34,6 +35,7 @@ struct Options {
     std::optional<PXR_NS::GfVec4f> crop; ///< the part to render; see dataWindowOf()
     std::vector<double> frames;          ///< empty: the stage's first
     std::vector<std::string> aovs{"color"};
+    bool half = false; ///< Layer::half of all AOVs
     std::vector<std::string> purposes{"default", "render"}; ///< always holds "default"
     std::vector<std::string> mask;
     int refineLevel = 0;

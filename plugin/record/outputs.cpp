@@ -16,6 +16,7 @@ void Output::write(const std::string& path, const Picture& picture, const Displa
     for (const LayerName& layer : _layers) {
         part.layers.push_back(*picture.find(layer.aov));
         part.layers.back().name = layer.name;
+        part.layers.back().half |= layer.half;
     }
     writePicture(path, part, display);
 }

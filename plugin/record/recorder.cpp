@@ -7,6 +7,7 @@
 #include <thread>
 #include <unistd.h>
 
+#include "plugin/record/cryptomatte.h"
 #include "plugin/record/dataWindow.h"
 #include "plugin/record/editFrames.h"
 #include "plugin/record/edits.h"
@@ -354,6 +355,12 @@ void Recording::writePictures(FrameReport& report) {
     const bool paused = !report.converged && delegate.IsPauseSupported() && delegate.Pause();
     Picture picture = _engine.read();
     if (paused) delegate.Resume();
+    for (Layer& layer : picture.layers) {
+        layer.half = _options.half;
+        const std::string matte = cryptomatteOf(layer.aov);
+        if (!matte.empty() && !picture.info.names.count(matte))
+            picture.info.names[matte] = _engine.cryptomatteNames(matte);
+    }
     picture.info.software = std::string("hiprrecord " HIPR_VERSION ", ") + _report.renderer;
     picture.info.scene = _report.scene;
     picture.info.camera = _report.camera;

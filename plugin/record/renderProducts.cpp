@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plugin/record/cryptomatte.h"
 #include "plugin/record/diagnostics.h"
 #include "plugin/record/failure.h"
 #include "plugin/record/stage.h"
@@ -58,6 +59,12 @@ std::string aovOf(const UsdRenderVar& var) {
     if (type == "primvar") return "primvars:" + name;
     if (type == "lpe") return "lpe:" + name;
     return name == "Ci" ? "color" : name;
+}
+
+/// Whether an EXR has 16 bits of a var: of a type like color3h, half4 or half.
+bool half(const UsdRenderVar& var) {
+    const std::string type = textOf(var.GetDataTypeAttr());
+    return TfStringStartsWith(type, "half") || TfStringEndsWith(type, "3h") || TfStringEndsWith(type, "4h");
 }
 
 /// Reads products of one RenderSettings prim.
@@ -119,7 +126,9 @@ std::vector<LayerName> Reader::layers(const UsdRenderProduct& product) const {
         const std::string aov = aovOf(var);
         if (aov.empty()) throw Failure(ExitUsage, "RenderVar " + target.GetString() + " has no sourceName");
         const std::string name = textOf(var.GetPrim().GetAttribute(TfToken("driver:parameters:aov:name")));
-        layers.push_back({aov, name.empty() ? aov : name});
+        const std::vector<std::string> aovs = expandedAov(aov);
+        for (const std::string& part : aovs) // whose numbers follow the name
+            layers.push_back({part, (name.empty() ? aov : name) + part.substr(aov.size()), half(var)});
     }
     if (layers.empty()) layers.push_back({"color", "color"});
     return layers;

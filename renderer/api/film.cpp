@@ -5,6 +5,9 @@ namespace hipr {
 AovFormat aovFormat(AovKind kind) {
     switch (kind) {
     case AovKind::Color:
+    case AovKind::CryptoObject:
+    case AovKind::CryptoMaterial:
+    case AovKind::CryptoAsset:
         return {4, false};
     case AovKind::Albedo:
     case AovKind::Normal:

@@ -27,12 +27,21 @@ enum class AovKind : uint32_t {
     Peye,        ///< float3, view-space position, 0 where nothing is seen
     PatchCoord,  ///< float3, barycentric coordinates (u, v, 0) in the triangle that is seen
     Variance,    ///< float3, that of color's channels as an estimate: sample variance / samples; 0 below 2 samples
+    CryptoObject,   ///< float4, two ranks of (id, coverage) of the objects that samples see: AovRequest::layer
+    CryptoMaterial, ///< the same of the materials they show
+    CryptoAsset,    ///< the same of ObjectDesc::asset
 };
+
+/// Layers of two ranks that a Cryptomatte AOV has: see renderer/api/cryptomatte.h.
+constexpr uint32_t CryptomatteLayers = 3;
 
 struct AovRequest {
     AovKind kind = AovKind::Color;
-    std::string primvar; ///< for AovKind::Primvar
-    bool operator==(const AovRequest& o) const { return kind == o.kind && primvar == o.primvar; }
+    std::string name;   ///< for AovKind::Primvar, of the primvar
+    uint32_t layer = 0; ///< for Cryptomatte, 0 to CryptomatteLayers - 1
+    bool operator==(const AovRequest& o) const {
+        return kind == o.kind && name == o.name && layer == o.layer;
+    }
 };
 
 /// 4-byte words per pixel of an AOV, and whether they are ints.

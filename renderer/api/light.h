@@ -73,10 +73,11 @@ struct LightDesc {
     LightShadow shadow;
     std::string lightLink;  ///< the category (ObjectDesc::categories) whose objects are lit; empty: all
     std::string shadowLink; ///< the category whose objects cast shadows; empty: all
+    std::string group;      ///< of lights, for light path expressions; empty: none
     auto members() const {
         return std::tie(name, kind, transform, intensity, exposure, color, enableColorTemperature,
                         colorTemperature, normalize, radius, width, height, length, angle, diffuse, specular,
-                        visible, texture, shaping, shadow, lightLink, shadowLink, thin, domeFormat);
+                        visible, texture, shaping, shadow, lightLink, shadowLink, thin, domeFormat, group);
     }
     bool operator==(const LightDesc& o) const { return members() == o.members(); }
 };

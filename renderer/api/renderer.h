@@ -103,6 +103,10 @@ public:
 
     virtual MemoryReport memory() const = 0;
 
+    /// The names whose ids the AOV CryptoObject, CryptoMaterial or CryptoAsset may hold, sorted: what its manifest
+    /// lists. To be called by the thread that commits.
+    virtual std::vector<std::string> cryptomatteNames(AovKind kind) const = 0;
+
     /// Writes everything the renderer holds of the scene, sorted by name, one fact per line: objects with their
     /// geometry, placements and materials, materials, lights, camera, settings. Ids, addresses and the order of edits
     /// do not show: scenes that must render alike give the same text. To be called by the thread that commits.

@@ -28,6 +28,8 @@ struct ObjectDesc {
     SplatsId splats = SplatsId::None; ///< a cloud of splats, which has no materials, instead of a geometry
     std::vector<std::string> categories{}; ///< what lights may be linked to: LightDesc::lightLink, shadowLink
     VolumeId volume = VolumeId::None; ///< a volume instead of a geometry; its material is the first one
+    std::string asset{}; ///< what Cryptomatte takes it for a part of; empty: of itself
+    std::string lightGroup{}; ///< of the light that it emits, for light path expressions; empty: none
 };
 
 /// All placements of one object. The geometry is never copied per instance. An object that was never given

@@ -4,6 +4,7 @@
 
 #include <unordered_map>
 
+#include "renderer/api/film.h"
 #include "renderer/api/settings.h"
 #include "renderer/scene/displacement_table.h"
 #include "renderer/scene/mesh_lights.h"
@@ -59,6 +60,12 @@ public:
 
     /// Everything in the scene as text, by name: see SceneDump.
     void dump(std::ostream& out, const Settings& settings) const;
+
+    /// Whether kernels know what is called how (SceneRecord::slotNames); takes effect in commit(). Returns
+    /// whether that is new.
+    bool keepNames(bool keep) { return _objects.keepNames(keep); }
+    /// The names whose ids a Cryptomatte AOV may hold, sorted.
+    std::vector<std::string> cryptomatteNames(AovKind kind) const;
 
     const std::optional<CameraDesc>& camera() const { return _camera; }
     NameTable& names() { return _names; }

@@ -53,7 +53,9 @@ void ObjectTable::setObject(ObjectId id, const ObjectDesc& desc, ChangedSet& cha
             change = change | Change::Geometry;
         if (entry.desc->materials != desc.materials) change = change | Change::Material;
         if (entry.desc->visible != desc.visible) change = change | Change::Visibility;
-        if (entry.desc->primId != desc.primId) change = change | Change::Primvar;
+        if (entry.desc->primId != desc.primId || entry.desc->asset != desc.asset ||
+            entry.desc->lightGroup != desc.lightGroup)
+            change = change | Change::Primvar;
         if (entry.desc->categories != desc.categories) change = change | Change::Linking;
         if (change != Change::None) vacate(entry);
     }
@@ -61,6 +63,7 @@ void ObjectTable::setObject(ObjectId id, const ObjectDesc& desc, ChangedSet& cha
     entry.missingReported = false;
     if (!entry.desc || entry.desc->name != desc.name) _order.clear();
     entry.desc = desc;
+    entry.names = namesOf(desc);
     note(changed, id, entry, change);
 }
 
@@ -347,6 +350,7 @@ bool ObjectTable::commit(const GeometryTable& geometries, const SplatTable& spla
         _device.upload(_materialTable.buffer(), _materialIndices.data(),
                        _materialIndices.size() * sizeof(uint32_t));
     }
+    if (_keepsNames) uploadNames(materials);
     summarise(geometries);
     return resized || !rewritten.empty();
 }
@@ -388,6 +392,7 @@ void ObjectTable::describe(gpu::SceneRecord& scene) const {
     scene.instanceCount = uint32_t(_records.size());
     scene.motionKeys = _keyTable.address();
     scene.materialIndices = _materialTable.address();
+    scene.slotNames = _keepsNames ? _slotNameTable.address() : 0;
     scene.boundsMin = _boundsMin;
     scene.boundsMax = _boundsMax;
     if (_nonOpaque) scene.flags |= gpu::SCENE_HAS_NON_OPAQUE;

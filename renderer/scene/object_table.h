@@ -47,6 +47,8 @@ public:
                 const MaterialTable* materials);
     /// Takes effect in commit().
     void setShutter(const Shutter& shutter);
+    /// Whether kernels are told what slots are called. Takes effect in commit(); returns whether that is new.
+    bool keepNames(bool keep) { return std::exchange(_keepsNames, keep) != keep; }
     /// Whether any instance has motion.
     bool anyMotion() const;
 
@@ -104,6 +106,7 @@ private:
         bool transformsPending = true, boundsPending = true;
         bool missingReported = false;
         bool fresh = false; ///< added since the last commit: what else is said of it is no change
+        gpu::SlotNames names{}; ///< but for the material
         std::vector<SplatPlacement> splats;   ///< of `usable`, as of the last commit
         uint32_t splatSet = 0;                ///< SplatSet::revision of what they show
         std::vector<VolumePlacement> volumes; ///< of `usable`, as of the last commit
@@ -125,6 +128,8 @@ private:
     const glm::mat4x3& placedTransform(const Entry& entry, uint32_t i) const;
     Placement place(Entry& entry, const Geometry* geometry, const MaterialTable* materials, uint32_t first,
                     std::vector<uint32_t>& materialIndices);
+    gpu::SlotNames namesOf(const ObjectDesc& desc);
+    void uploadNames(const MaterialTable* materials);
     /// Ids by the name of the object: hits at equal distance go to the first, and ids tell the history of
     /// edits.
     const std::vector<ObjectId>& order();
@@ -151,11 +156,11 @@ private:
     std::vector<uint32_t> _materialIndices;
     std::vector<glm::mat4x3> _keys; ///< see InstanceRecord::firstKey
     Shutter _shutter;
-    DeviceTable _recordTable, _materialTable, _keyTable;
+    DeviceTable _recordTable, _materialTable, _slotNameTable, _keyTable;
     std::vector<WorldBox> _vacated;
     glm::vec3 _boundsMin{0.f}, _boundsMax{0.f};
     uint64_t _splatRevision = 0;
-    bool _nonOpaque = false, _tracedChanged = false;
+    bool _nonOpaque = false, _tracedChanged = false, _keepsNames = false;
 };
 
 } // namespace hipr

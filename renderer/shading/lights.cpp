@@ -204,7 +204,7 @@ void LightTable::Impl::addMeshes(Tables& tables) {
         record.kind = gpu::LIGHT_MESH;
         record.radiance = glm::vec3(1.f);
         record.diffuse = record.specular = 1.f;
-        record.texture = record.category = gpu::NO_INDEX;
+        record.texture = record.category = record.group = gpu::NO_INDEX;
         record.distribution = mesh.distribution;
         record.instance = mesh.instance;
         record.triangleCount = mesh.triangleCount;

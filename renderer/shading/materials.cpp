@@ -5,6 +5,7 @@
 #include <set>
 #include <vector>
 
+#include "renderer/api/cryptomatte.h"
 #include "renderer/shading/albedo.h"
 #include "renderer/shading/material_inputs.h"
 #include "renderer/shading/openpbr_albedo.h"
@@ -46,6 +47,7 @@ struct MaterialTable::Impl {
         bool nonOpaque = false;
         std::vector<char> program; ///< what the row holds behind its constants
         uint64_t written = 0;      ///< where it was written; 0: not yet
+        float cryptomatte = 0.f;
     };
 
     Impl(Device& device, NameTable& names, TextureStore& textures)
@@ -148,8 +150,9 @@ void MaterialTable::set(MaterialId id, const MaterialDesc& desc) {
             _impl->freeIndices.pop_back();
         }
         const RowSlot row = _impl->rows.take(rowBytes(inputs));
-        _impl->materials[id] = {std::move(inputs), index, row, false, {}, 0};
+        _impl->materials[id] = {std::move(inputs), index, row, false, {}, 0, 0.f};
     }
+    _impl->materials[id].cryptomatte = cryptomatteId(desc.name);
     _impl->dirty.insert(id);
     if (isEmissive(_impl->materials[id].inputs))
         _impl->emissive.insert(id);
@@ -183,6 +186,12 @@ std::map<uint32_t, MaterialId> MaterialTable::indices() const {
     for (const auto& [id, material] : _impl->materials)
         if (id != MaterialId::None) result[material.index] = id;
     return result;
+}
+
+float MaterialTable::cryptomatte(MaterialId id) const {
+    const auto known = _impl->materials.find(id);
+    const bool found = id != MaterialId::None && known != _impl->materials.end();
+    return found ? known->second.cryptomatte : cryptomatteId(CryptomatteNoMaterial);
 }
 
 bool MaterialTable::emissive(MaterialId id) const {

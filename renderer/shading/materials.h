@@ -37,6 +37,8 @@ public:
     /// fallback look (None and unknown ids) false: there it is up to the object's displayOpacity primvar
     /// (below 1 somewhere: non-opaque).
     bool nonOpaque(MaterialId id) const;
+    /// Its name as a Cryptomatte id; for None and unknown ids that of CryptomatteNoMaterial.
+    float cryptomatte(MaterialId id) const;
     /// Which material each record in use holds, but for the fallback look.
     std::map<uint32_t, MaterialId> indices() const;
 

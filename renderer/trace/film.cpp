@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "renderer/hipr/tile_aovs.h"
+#include "renderer/trace/cryptomatte.h"
 
 namespace hipr {
 namespace {
@@ -12,7 +13,8 @@ constexpr uint32_t MaxSide = 65535;        // PathState::pixel packs both coordi
 constexpr uint64_t MaxPixels = 1ull << 30; // kernels count the words of an AOV in 32 bits
 
 bool isSum(AovKind kind) {
-    return kind == AovKind::Color || kind == AovKind::Albedo || kind == AovKind::Variance;
+    return kind == AovKind::Color || kind == AovKind::Albedo || kind == AovKind::Variance ||
+           isCryptomatte(kind);
 }
 
 /// The word an AOV holds where nothing is seen.
@@ -49,6 +51,7 @@ void FilmBuffers::clear() {
     _sums = {}, _oldPicture = {}, _firstSamples = {}, _visibility = {}, _previousHits = {}, _depths = {},
     _targets = {}, _spreads = {};
     _carried = {}, _seen = {}, _seenAfter = {}, _lists = {};
+    _cryptomattes = {};
     _firstHits.clear();
     _hasPrevious = false;
 }
@@ -67,12 +70,15 @@ void FilmBuffers::allocate() {
     _firstSamples = _device.createBuffer(pixels() * sizeof(glm::vec3), MemoryUse::Device, "Film");
     std::vector<gpu::AovTarget> targets;
     for (const AovRequest& request : _desc.aovs) {
+        if (isCryptomatte(request.kind) && !_cryptomattes[cryptomatteIndex(request.kind)])
+            _cryptomattes[cryptomatteIndex(request.kind)] =
+                filled(pixels() * gpu::CRYPTOMATTE_RANKS * sizeof(gpu::CryptoEntry), 0);
         if (isSum(request.kind) || isTileAov(request.kind)) continue;
         const uint64_t bytes = pixels() * aovFormat(request.kind).components * sizeof(uint32_t);
         _firstHits.push_back({request, filled(bytes, missWord(request.kind))});
         const bool primvar = request.kind == AovKind::Primvar;
         targets.push_back({_firstHits.back().values.address(), uint32_t(request.kind),
-                           primvar ? _names.intern(request.primvar) : gpu::NO_INDEX});
+                           primvar ? _names.intern(request.name) : gpu::NO_INDEX});
     }
     if (!targets.empty()) _targets = _device.createFrom(targets.data(), targets.size(), "Film");
     createHits();
@@ -174,12 +180,19 @@ void FilmBuffers::describe(gpu::TraceRecord& record) const {
     record.opaqueDepths = depths();
     record.aovs = _targets ? _targets.address() : 0;
     record.aovCount = uint32_t(_firstHits.size());
+    for (size_t kind = 0; kind < _cryptomattes.size(); ++kind)
+        record.cryptomattes[kind] = _cryptomattes[kind] ? _cryptomattes[kind].address() : 0;
     record.width = _width;
     record.height = _height;
 }
 
 bool FilmBuffers::holds(const AovRequest& aov) const {
     return std::find(_desc.aovs.begin(), _desc.aovs.end(), aov) != _desc.aovs.end();
+}
+
+bool FilmBuffers::wantsNames() const {
+    return std::any_of(_desc.aovs.begin(), _desc.aovs.end(),
+                       [](const AovRequest& aov) { return isCryptomatte(aov.kind); });
 }
 
 bool FilmBuffers::read(const AovRequest& aov, const TileSchedule& schedule, void* dst, size_t words) const {
@@ -191,6 +204,7 @@ bool FilmBuffers::read(const AovRequest& aov, const TileSchedule& schedule, void
     if (aov.kind == AovKind::Albedo)
         readMeans(&gpu::FilmPixel::albedo, &gpu::OldPixel::albedo, schedule, static_cast<float*>(dst));
     if (aov.kind == AovKind::Variance) readVariance(static_cast<float*>(dst));
+    if (isCryptomatte(aov.kind)) readCryptomatte(aov, static_cast<float*>(dst));
     for (const FirstHitAov& firstHit : _firstHits)
         if (firstHit.request == aov) _device.download(firstHit.values, dst, words * sizeof(uint32_t));
     return true;
@@ -199,7 +213,7 @@ bool FilmBuffers::read(const AovRequest& aov, const TileSchedule& schedule, void
 /// The buffer's content where the host can read it.
 template <class T> const T* FilmBuffers::hostCopy(const Buffer& buffer, std::vector<T>& copy) const {
     if (const T* mapped = buffer.mapped<T>()) return mapped;
-    copy.resize(pixels());
+    copy.resize(buffer.bytes() / sizeof(T));
     _device.download(buffer, copy.data(), copy.size() * sizeof(T));
     return copy.data();
 }
@@ -213,6 +227,22 @@ void FilmBuffers::readVariance(float* dst) const {
         const float n = float(sums[i].count), weight = n > 1.f ? 1.f / (n * (n - 1.f)) : 0.f;
         for (int c = 0; c < 3; ++c)
             dst[c] *= weight;
+    }
+}
+
+/// Of the samples of the current scene, once there are any.
+void FilmBuffers::readCryptomatte(const AovRequest& aov, float* dst) const {
+    std::vector<gpu::FilmPixel> sumCopy;
+    std::vector<gpu::CryptoEntry> entryCopy;
+    const gpu::FilmPixel* sums = hostCopy(_sums, sumCopy);
+    const gpu::CryptoEntry* entries = hostCopy(_cryptomattes[cryptomatteIndex(aov.kind)], entryCopy);
+    for (size_t i = 0; i < pixels(); ++i, entries += gpu::CRYPTOMATTE_RANKS, dst += 4) {
+        const CryptoRanks ranks = cryptoRanks(entries);
+        for (uint32_t k = 0; k < 2; ++k) {
+            const gpu::CryptoEntry& entry = ranks[2 * aov.layer + k];
+            dst[2 * k] = entry.id;
+            dst[2 * k + 1] = float(entry.count) / float(std::max(sums[i].count, 1u));
+        }
     }
 }
 

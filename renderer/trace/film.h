@@ -2,6 +2,7 @@
 /// Pixels: sums over samples, the first hit of every pixel centre, and the AOVs that follow from either.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "renderer/api/film.h"
@@ -60,6 +61,8 @@ public:
     void keepSpreads(bool keep);
 
     bool holds(const AovRequest& aov) const;
+    /// Whether an AOV tells what things are called.
+    bool wantsNames() const;
     /// See Renderer::readAov(); for AOVs that are not of tiles (renderer/hipr/tile_aovs.h).
     bool read(const AovRequest& aov, const TileSchedule& schedule, void* dst, size_t words) const;
 
@@ -80,6 +83,7 @@ private:
     void createPictures();
     void createSpreads();
     void readVariance(float* dst) const;
+    void readCryptomatte(const AovRequest& aov, float* dst) const;
 
     Device& _device;
     NameTable& _names;
@@ -87,6 +91,7 @@ private:
     uint32_t _width = 0, _height = 0;
     Buffer _sums, _oldPicture, _firstSamples, _visibility, _previousHits, _depths, _targets, _spreads;
     Buffer _carried, _seen, _seenAfter, _lists;
+    std::array<Buffer, gpu::CRYPTOMATTE_KINDS> _cryptomattes;
     bool _keepsHits = false, _keepsDepths = false, _hasPrevious = false, _keepsPictures = false,
          _keepsSpreads = false;
     std::vector<FirstHitAov> _firstHits;

@@ -52,6 +52,13 @@ void PathTracer::setup(gpu::TraceRecord record, const gpu::CameraRecord& camera,
     _sceneFlags = sceneFlags;
     prepareFor(sceneFlags);
     _shading = _shadingVariants.at(sceneFlags & gpu::SCENE_SHADING_FEATURES).get();
+    _countsNames = std::any_of(std::begin(record.cryptomattes), std::end(record.cryptomattes),
+                               [](uint64_t address) { return address != 0; });
+    if (_countsNames && !_cryptomatte) {
+        _cryptomatte = std::make_unique<BackgroundKernels>(_device, cryptomatteKernelSource());
+        _pathSlots = _device.createBuffer(capacity() * sizeof(uint32_t), MemoryUse::Device, "Path queues");
+    }
+    record.pathSlots = _countsNames ? _pathSlots.address() : 0;
     _device.upload(_record, &record, sizeof(record));
     _device.upload(_camera, &camera, sizeof(camera));
 }
@@ -178,9 +185,13 @@ bool PathTracer::trace(Traversal& traversal, const std::vector<gpu::TileWork>& t
     uint32_t pixels = 0; // of the largest tile
     for (const gpu::TileWork& tile : tiles)
         pixels = std::max(pixels, tile.width * tile.height);
-    steps.run("resolve", [this, pixels, p = push(), count = uint32_t(tiles.size())](VkCommandBuffer cmd) {
-        kernel(KernelId::Resolve).dispatch(cmd, &p, groupsOf(pixels), count);
-    });
+    const auto resolve = [&](const char* name, const Kernel& kernel) {
+        steps.run(name, [&kernel, pixels, p = push(), count = uint32_t(tiles.size())](VkCommandBuffer cmd) {
+            kernel.dispatch(cmd, &p, groupsOf(pixels), count);
+        });
+    };
+    resolve("resolve", kernel(KernelId::Resolve));
+    if (_countsNames) resolve("cryptomatte", _cryptomatte->get(0));
     steps.flush();
     if (changes)
         _device.download(_buffers.tileChanges, changes->data(), changes->size() * sizeof(gpu::TileChange));

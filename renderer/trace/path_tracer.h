@@ -62,7 +62,8 @@ public:
     /// it.
     bool ready(std::chrono::milliseconds patience) {
         return _kernels.ready(patience) && _shading && _shading->ready(patience) &&
-               (!_volumeKernels || _volumeKernels->ready(patience));
+               (!_volumeKernels || _volumeKernels->ready(patience)) &&
+               (!_cryptomatte || _cryptomatte->ready(patience));
     }
     uint32_t capacity() const { return _buffers.capacity; }
 
@@ -123,8 +124,11 @@ private:
     std::map<uint32_t, std::unique_ptr<BackgroundKernels>> _shadingVariants;
     BackgroundKernels* _shading = nullptr;             ///< the scene's
     std::unique_ptr<BackgroundKernels> _volumeKernels; ///< once a scene had volumes
+    std::unique_ptr<BackgroundKernels> _cryptomatte;   ///< once a film had such AOVs
     WavefrontBuffers _buffers;
     Buffer _record, _camera, _cameraKeys;
+    Buffer _pathSlots;         ///< with _cryptomatte
+    bool _countsNames = false; ///< the film has Cryptomatte AOVs
     VkDeviceAddress _scene = 0;
     uint32_t _sceneFlags = 0;
     Profile _profile;

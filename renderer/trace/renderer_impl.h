@@ -37,6 +37,9 @@ public:
     Progress progress() const override;
     bool readAov(const AovRequest& aov, void* dst, size_t words) override;
     MemoryReport memory() const override;
+    std::vector<std::string> cryptomatteNames(AovKind kind) const override {
+        return _scene.cryptomatteNames(kind);
+    }
     void dumpScene(std::ostream& out) const override { _scene.dump(out, _settings); }
 
     bool validation() const { return _device->validation(); }

@@ -85,6 +85,7 @@ ChangedSet RendererImpl::setFilm(const FilmDesc& film) {
     guarded([&] {
         if (film == _film.desc()) return true;
         _film.setDesc(film);
+        if (_scene.keepNames(_film.wantsNames())) _scene.commit();
         restart(Cause::Picture);
         viewSplats(false);
         changed = settingChange();

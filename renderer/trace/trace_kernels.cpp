@@ -32,6 +32,10 @@ std::vector<KernelSource> shadingKernelSources(uint32_t features) {
     return sources;
 }
 
+std::vector<KernelSource> cryptomatteKernelSource() {
+    return {{spirv::cryptomatte_spv, spirv::cryptomatte_spv_size, sizeof(gpu::TraceKernelPush), "cryptomatte"}};
+}
+
 std::vector<KernelSource> volumeKernelSources() {
     constexpr uint32_t push = sizeof(gpu::TraceKernelPush);
     using namespace spirv;

@@ -56,13 +56,17 @@ Corners cornersAt(ShadingPoint point, uint64_t array, uvec3 elements, uint count
                    mixKeys(values.v[from.z], values.v[to.z], w));
 }
 
+// Where the slot of a triangle is among those of all objects; of instances that have any.
+uint slotIndex(InstanceRecord instance, GeometryRecord geometry, uint primitive) {
+    uint slot = 0u;
+    if (geometry.triangleSlot != 0ul) slot = uint(Uint16Ref(geometry.triangleSlot).v[primitive]);
+    return instance.firstMaterial + min(slot, instance.materialCount - 1u);
+}
+
 // The MaterialRecord of a hit's slot.
 uint materialIndex(SceneRecord scene, ShadingPoint point) {
     if (point.instance.materialCount == 0u) return 0u;
-    uint slot = 0u;
-    if (point.geometry.triangleSlot != 0ul) slot = uint(Uint16Ref(point.geometry.triangleSlot).v[point.primitive]);
-    slot = min(slot, point.instance.materialCount - 1u);
-    return UintRef(scene.materialIndices).v[point.instance.firstMaterial + slot];
+    return UintRef(scene.materialIndices).v[slotIndex(point.instance, point.geometry, point.primitive)];
 }
 
 // Front-facing geometric normal of a triangle; `mirrored` transforms turn the winding over.

@@ -75,6 +75,8 @@ struct LightRecord {
     uint leaf;               // in the tree of lights: its LightNode
     uint instance;           // mesh: its InstanceRecord
     uint triangleCount;      // mesh
+    uint group;              // interned name for light path expressions, NO_INDEX: none
+    uint pad;
 };
 
 HIPR_SHARED_END

@@ -79,11 +79,20 @@ struct Hit {
     float v;
 };
 
+// What a slot of an object is called.
+struct SlotNames {
+    float object;            // Cryptomatte ids
+    float material;
+    float asset;
+    uint lightGroup;         // interned name, NO_INDEX: none
+};
+
 // Everything a kernel may read about the scene; one buffer, rewritten on commit.
 struct SceneRecord {
     uint64_t geometries;     // GeometryRecord[]
     uint64_t instances;      // InstanceRecord[]
     uint64_t materialIndices;// uint[]
+    uint64_t slotNames;      // SlotNames[], one for each of those, or 0
     uint64_t materials;      // MaterialRecord[] (shaders/shared/material.h); entry 0 is the fallback look
     uint64_t textures;       // TextureRecord[]
     uint64_t lights;         // LightRecord[]  (shaders/shared/light.h)

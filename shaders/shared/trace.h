@@ -173,6 +173,14 @@ struct TraceCounters {
     uint pad;
 };
 
+// Cryptomatte: how many samples of a pixel saw what has this id. The entries of a pixel that are in use come first.
+HIPR_CONST uint CRYPTOMATTE_RANKS = 6u;
+HIPR_CONST uint CRYPTOMATTE_KINDS = 3u; // object, material, asset
+struct CryptoEntry {
+    float id;
+    uint count;              // 0: not in use
+};
+
 // Everything the wavefront kernels share; rewritten when film, settings, camera or scene change.
 struct TraceRecord {
     uint64_t scene;          // SceneRecord
@@ -201,6 +209,9 @@ struct TraceRecord {
     uint64_t spreads;        // vec3[]: sum of the squares of what a pixel's samples differ from their mean by; or 0
     uint64_t seen;           // SeenPoint[]: what each pixel on display shows, as its sample 0 saw it; or 0
     uint64_t pathSeen;       // SeenPoint[] by path: what sample 0 sees
+    uint64_t pathSlots;      // uint[] by path: index of the SlotNames of the first surface, NO_INDEX: none; or 0
+    uint64_t cryptomattes[CRYPTOMATTE_KINDS]; // CryptoEntry[][CRYPTOMATTE_RANKS] by pixel, or 0
+    uint64_t lpe;            // LpeRecord (lpe.h), or 0
     uint64_t scoutResults;   // ScoutResult[]
     uint64_t tileChanges;    // TileChange[]: one a work item
     uint64_t aovs;           // AovTarget[aovCount]

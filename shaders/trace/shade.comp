@@ -101,6 +101,14 @@ void keepSeenSurface(TraceRecord trace, Path path, Surface surface, float time) 
                   packLook(share * scattered / max(scattered + emitted, 1e-6), alpha, 0.0));
 }
 
+// Keeps what the first surface of a path is called.
+void keepSlot(TraceRecord trace, SceneRecord scene, Path path, Hit hit) {
+    const InstanceRecord instance = InstanceRef(scene.instances).v[hit.instance];
+    if (instance.materialCount > 0u)
+        SlotRef(trace.pathSlots).v[path.slot] =
+            slotIndex(instance, GeometryRef(scene.geometries).v[instance.geometry], hit.primitive);
+}
+
 // Scatters a path in the medium it is in, at the end of its flight. False: the path ends here.
 bool scatterInMedium(TraceRecord trace, MediumRecord medium, inout Path path, inout Ray ray) {
     if (path.depth >= trace.maxDepth || path.event - path.depth >= MEDIUM_STEP_LIMIT) return false;
@@ -151,6 +159,7 @@ bool scatter(TraceRecord trace, SceneRecord scene, inout Path path, inout Ray ra
         PathRef(trace.paths).v[path.slot].alpha = 1.0;
         PathRef(trace.paths).v[path.slot].albedo = surface.albedo;
         if (keepsSeen(trace, path)) keepSeenSurface(trace, path, surface, ray.time);
+        if (trace.pathSlots != 0ul) keepSlot(trace, scene, path, hit);
     }
     addEmission(trace, scene, path, ray, hit, surface.emission);
     if (path.depth >= trace.maxDepth) return false;

@@ -1,8 +1,10 @@
 /// What hiprrecord writes: channels, metadata, frames, cameras, visibility.
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <fstream>
 #include <gmock/gmock.h>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "pxr/usd/usd/zipFile.h"
@@ -65,6 +67,45 @@ TEST_F(RecorderPictures, AovsBecomeLayersOfTheRightType) {
     EXPECT_NE(red, green);
     EXPECT_EQ(image.idAt("primId.I", emptySpot.x, emptySpot.y), noId);
     EXPECT_EQ(image.idAt("elementId.I", redSpot.x, redSpot.y), 0u);
+}
+
+/// The bits of a float whose channel says what is seen at a place.
+uint32_t matteAt(const ImageFile& image, const std::string& channel, Spot spot) {
+    const float id = image.at(channel, spot.x, spot.y);
+    uint32_t bits;
+    std::memcpy(&bits, &id, sizeof bits);
+    return bits;
+}
+
+// What a compositor does: it looks the id of the pixel up in the manifest of the file.
+TEST_F(RecorderPictures, CryptomattesNameWhatIsSeen) {
+    if (rendererUnderTest() != "HiPR") GTEST_SKIP() << "an AOV of HiPR";
+    const ImageFile image = picture({"--aovs", "color,CryptoObject,CryptoAsset", "--half"});
+    std::map<std::string, nlohmann::json> manifests;
+    for (const OIIO::ParamValue& value : image.spec().extra_attribs) {
+        const std::string key = value.name().string();
+        const size_t end = key.rfind("/name");
+        if (key.rfind("cryptomatte/", 0) == 0 && end != std::string::npos)
+            manifests[value.get_string()] = nlohmann::json::parse(
+                std::string(image.spec().get_string_attribute(key.substr(0, end) + "/manifest")));
+    }
+    ASSERT_EQ(manifests.size(), 2u);
+    const auto nameAt = [&](const std::string& matte, Spot spot) {
+        char text[9];
+        std::snprintf(text, sizeof text, "%08x", matteAt(image, matte + "00.R", spot));
+        for (const auto& [name, id] : manifests[matte].items())
+            if (id == text) return name;
+        return std::string();
+    };
+    EXPECT_EQ(nameAt("CryptoObject", redSpot), "/World/Red");
+    EXPECT_EQ(nameAt("CryptoObject", greenSpot), "/World/Green");
+    EXPECT_EQ(nameAt("CryptoAsset", redSpot), "/World/Red");
+    EXPECT_EQ(nameAt("CryptoObject", emptySpot), "");
+    EXPECT_EQ(image.at("CryptoObject00.G", redSpot.x, redSpot.y), 1.f) << "all samples see it";
+    EXPECT_EQ(image.at("CryptoObject02.A", redSpot.x, redSpot.y), 0.f);
+    EXPECT_EQ(image.channelType("CryptoObject00.R"), "float") << "ids need all their bits";
+    EXPECT_EQ(image.channelType("R"), "half");
+    EXPECT_EQ(colourAt(image, redSpot), "red");
 }
 
 TEST_F(RecorderPictures, MetadataTellsHowThePictureWasMade) {
