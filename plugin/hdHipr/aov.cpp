@@ -2,6 +2,7 @@
 
 #include <unordered_map>
 
+#include "pxr/base/gf/vec2f.h"
 #include "pxr/base/gf/vec3f.h"
 #include "pxr/base/gf/vec4f.h"
 #include "pxr/imaging/hd/tokens.h"
@@ -38,6 +39,7 @@ std::optional<hipr::AovRequest> aovRequest(TfToken const& name) {
         {HdAovTokens->Neye, AovKind::Neye},
         {HdAovTokens->Peye, AovKind::Peye},
         {HdAovTokens->patchCoord, AovKind::PatchCoord},
+        {TfToken("motion"), AovKind::Motion},
         {HdAovTokens->primId, AovKind::PrimId},
         {HdAovTokens->instanceId, AovKind::InstanceId},
         {HdAovTokens->elementId, AovKind::ElementId},
@@ -56,6 +58,9 @@ std::optional<hipr::AovRequest> aovRequest(TfToken const& name) {
         return cryptomatte;
     }
     const HdParsedAovToken parsed(name);
+    if (parsed.isLpe) {
+        return hipr::AovRequest{AovKind::Lpe, parsed.name.GetString()};
+    }
     if (parsed.isPrimvar) {
         return hipr::AovRequest{AovKind::Primvar, parsed.name.GetString()};
     }
@@ -95,7 +100,10 @@ HdAovDescriptor aovDescriptor(TfToken const& name) {
         return HdAovDescriptor(HdFormatInt32, false, VtValue(-1));
     case AovKind::Priority:
         return HdAovDescriptor(HdFormatFloat32, false, VtValue(0.f));
+    case AovKind::Motion:
+        return HdAovDescriptor(HdFormatFloat32Vec2, false, VtValue(GfVec2f(0.f)));
     case AovKind::Albedo:
+    case AovKind::Lpe:
     case AovKind::Variance:
         return HdAovDescriptor(HdFormatFloat32Vec3, true, VtValue(GfVec3f(0.f)));
     case AovKind::Normal:
@@ -112,7 +120,7 @@ bool changesWithSamples(AovKind kind) {
     return kind == AovKind::Color || kind == AovKind::Albedo || kind == AovKind::Variance ||
            kind == AovKind::SampleCount || kind == AovKind::Priority || kind == AovKind::Age ||
            kind == AovKind::Discovered || kind == AovKind::CryptoObject || kind == AovKind::CryptoMaterial ||
-           kind == AovKind::CryptoAsset;
+           kind == AovKind::CryptoAsset || kind == AovKind::Lpe;
 }
 
 } // namespace hdhipr

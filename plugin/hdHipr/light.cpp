@@ -57,6 +57,19 @@ struct Params {
     }
 };
 
+/// The group by which light path expressions know a light, under the names that hosts write.
+std::string lightGroup(Params const& params) {
+    for (const char* name : {"hipr:lightGroup", "karma:light:lpetag", "ri:light:lightGroup"}) {
+        const VtValue value = lightParam(params.delegate, params.id, TfToken(name));
+        const std::string group = value.IsHolding<TfToken>() ? value.UncheckedGet<TfToken>().GetString()
+                                                             : value.GetWithDefault<std::string>();
+        if (!group.empty()) {
+            return group;
+        }
+    }
+    return {};
+}
+
 } // namespace
 
 bool HdHiprLight::handles(TfToken const& type) {
@@ -157,6 +170,7 @@ void HdHiprLight::syncParams(HdSceneDelegate* delegate) {
                  (_desc.kind == hipr::LightKind::Cylinder && params.get("treatAsLine", false));
     _desc.shaping = readShaping(delegate);
     _desc.shadow = readShadow(delegate);
+    _desc.group = lightGroup(params);
 }
 
 void HdHiprLight::syncLinks(HdSceneDelegate* delegate, HdDirtyBits bits) {

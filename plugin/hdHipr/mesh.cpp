@@ -28,6 +28,22 @@ constexpr HdDirtyBits primvarBits = HdChangeTracker::DirtyPoints | HdChangeTrack
                                     HdChangeTracker::DirtyWidths | HdChangeTracker::DirtyPrimvar |
                                     HdChangeTracker::DirtyComputationPrimvarDesc;
 
+/// The primvars that name the light group of what a mesh emits: ours, and Karma's.
+bool namesLightGroup(TfToken const& primvar) {
+    return primvar == "hipr:lightGroup" || primvar == "karma:object:lpetag";
+}
+
+/// A text, or the only one of an array.
+std::string textOf(VtValue const& value) {
+    if (value.IsHolding<TfToken>()) {
+        return value.UncheckedGet<TfToken>().GetString();
+    }
+    if (value.IsHolding<VtArray<std::string>>() && value.GetArraySize() == 1) {
+        return value.UncheckedGet<VtArray<std::string>>()[0];
+    }
+    return value.GetWithDefault<std::string>();
+}
+
 size_t elementCount(hipr::MeshDesc const& desc, hipr::Interpolation interpolation) {
     switch (interpolation) {
     case hipr::Interpolation::Constant:
@@ -103,12 +119,13 @@ void HdHiprMesh::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdD
     if (bits & HdChangeTracker::DirtyCullStyle) {
         warnOfCullStyle(GetId().GetString(), GetCullStyle(delegate));
     }
+    const std::string lightGroup = _lightGroup;
     const Rebuild rebuild = std::max(syncTopology(delegate, bits, reprToken), syncPrimvars(delegate, bits));
     if (rebuild != Rebuild::None) {
         sendGeometry(*delegate, rebuild, param);
     }
     const bool relinked = _links.sync(*delegate, GetId(), GetInstancerId(), bits);
-    if (bits & objectBits) {
+    if ((bits & objectBits) || lightGroup != _lightGroup) {
         sendObject(delegate, param);
     }
     if (relinked || (bits & instanceBits)) {
@@ -184,6 +201,9 @@ HdHiprMesh::Rebuild HdHiprMesh::syncPrimvars(HdSceneDelegate* delegate, HdDirtyB
     if (!listed(HdTokens->points) && (bits & HdChangeTracker::DirtyPoints)) {
         rebuild = std::max(rebuild, setPoints(GetPoints(delegate)));
     }
+    if (std::none_of(names.begin(), names.end(), namesLightGroup)) {
+        _lightGroup.clear();
+    }
     const auto gone = std::remove_if(_desc.primvars.begin(), _desc.primvars.end(),
                                      [&](hipr::Primvar const& pv) { return !listed(TfToken(pv.name)); });
     if (gone != _desc.primvars.end()) {
@@ -258,6 +278,10 @@ HdHiprMesh::Rebuild HdHiprMesh::setPrimvar(HdPrimvarDescriptor const& descriptor
     if (descriptor.name == HdTokens->points) {
         return setPoints(value);
     }
+    if (namesLightGroup(descriptor.name)) {
+        _lightGroup = textOf(value);
+        return Rebuild::None;
+    }
     const std::optional<hipr::Interpolation> interpolation = toInterpolation(descriptor.interpolation);
     std::optional<hipr::Primvar> primvar = toPrimvar(descriptor.name, value);
     auto& primvars = _desc.primvars;
@@ -325,6 +349,7 @@ void HdHiprMesh::sendObject(HdSceneDelegate* delegate, HdHiprRenderParam& param)
     state.desc.visible = IsVisible();
     state.desc.primId = GetPrimId();
     state.desc.categories = _links.names();
+    state.desc.lightGroup = _lightGroup;
     const hipr::MaterialId own = param.materialId(GetMaterialId());
     state.desc.materials.push_back(own);
     for (SdfPath const& path : _subsetMaterials) {

@@ -60,6 +60,7 @@ private:
     bool _pointsComputed = false; ///< the points are among them
     SdfPathVector _subsetMaterials;
     hdhipr::LinkState _links;
+    std::string _lightGroup; ///< of what it emits
     std::shared_ptr<const hipr::TriangleMesh> _mesh;
 };
 

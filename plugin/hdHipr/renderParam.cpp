@@ -11,8 +11,8 @@ using namespace hdhipr;
 
 namespace {
 
-/// What a prim is taken for a part of. Hydra does not tell which prims are models, so it is the second prim of
-/// the path: "/World/Chair" of "/World/Chair/Geo/Leg".
+/// What a prim is taken for a part of. Hydra does not tell which prims are models, so it is the second prim
+/// of the path: "/World/Chair" of "/World/Chair/Geo/Leg".
 std::string assetOf(SdfPath const& path) {
     const SdfPathVector prefixes = path.GetPrefixes();
     return prefixes.empty() ? std::string() : prefixes[prefixes.size() > 1 ? 1 : 0].GetString();

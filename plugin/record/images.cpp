@@ -76,7 +76,8 @@ std::vector<uint16_t> halves(const Layer& layer) {
     for (float& value : values)
         if (std::isfinite(value)) value = std::clamp(value, -65504.f, 65504.f);
     std::vector<uint16_t> result(values.size());
-    OIIO::convert_pixel_values(OIIO::TypeFloat, values.data(), OIIO::TypeHalf, result.data(), int(values.size()));
+    OIIO::convert_pixel_values(OIIO::TypeFloat, values.data(), OIIO::TypeHalf, result.data(),
+                               int(values.size()));
     return result;
 }
 

@@ -32,7 +32,7 @@ struct PictureInfo {
     double seconds = 0;
     int x = 0, y = 0; ///< where the pixels begin in the full picture, from its top left
     int fullWidth = 0, fullHeight = 0;
-    float pixelAspect = 1; ///< width over height of a pixel
+    float pixelAspect = 1;                                      ///< width over height of a pixel
     std::map<std::string, std::vector<std::string>> names = {}; ///< in the manifest of a Cryptomatte AOV
 };
 

@@ -41,11 +41,14 @@ struct RawOptions {
     bool quiet = false, verbose = false;
 };
 
+/// Commas in braces stay: those of a light path expression.
 std::vector<std::string> splitCommas(const std::string& text) {
     std::vector<std::string> parts;
     std::string part;
+    int braces = 0;
     for (const char c : text + ",") {
-        if (c != ',' && c != ' ') {
+        braces += (c == '{') - (c == '}');
+        if ((c != ',' && c != ' ') || (c == ',' && braces > 0)) {
             part += c;
         } else if (!part.empty()) {
             if (std::find(parts.begin(), parts.end(), part) == parts.end()) parts.push_back(part);
@@ -53,6 +56,20 @@ std::vector<std::string> splitCommas(const std::string& text) {
         }
     }
     return parts;
+}
+
+/// AOVs, each by its name or as LAYER=AOV.
+void parseAovs(const std::string& text, Options& options) {
+    options.aovs.clear();
+    for (const std::string& part : splitCommas(text)) {
+        const size_t equals = std::min(part.find('='), part.find(':')); // expressions may hold a '=' too
+        const bool named = equals != std::string::npos && part[equals] == '=';
+        const std::string aov = named ? part.substr(equals + 1) : part;
+        for (const std::string& expanded : expandedAov(aov)) {
+            options.aovs.push_back(expanded);
+            if (named) options.layerNames[expanded] = part.substr(0, equals) + expanded.substr(aov.size());
+        }
+    }
 }
 
 void parseSize(const std::string& text, Options& options) {
@@ -143,7 +160,10 @@ void addPictureOptions(CLI::App& app, Options& options, RawOptions& raw) {
                    "and 1,1 its top right; numbers beyond are overscan. EXR files say where it belongs")
         ->type_name("WINDOW")
         ->group("Picture");
-    app.add_option("--aovs", raw.aovs, "AOVs to render, e.g. color,depth,normal,primId,primvars:st [color]")
+    app.add_option(
+           "--aovs", raw.aovs,
+           "AOVs to render, e.g. color,depth,normal,primId,primvars:st [color]. LAYER=AOV names the layer in "
+           "EXR files: key=lpe:C.*<L.'key'>")
         ->type_name("LIST")
         ->group("Picture");
     app.add_flag("--half", options.half, "Write the colours of EXR files with 16 bits")->group("Picture");
@@ -249,10 +269,7 @@ void interpret(const RawOptions& raw, Options& options) {
     if (!raw.size.empty()) parseSize(raw.size, options);
     if (!raw.crop.empty()) options.crop = parseDataWindow(raw.crop);
     if (!raw.frames.empty()) options.frames = parseFrames(raw.frames);
-    if (!raw.aovs.empty()) options.aovs.clear();
-    for (const std::string& name : splitCommas(raw.aovs))
-        for (const std::string& aov : expandedAov(name))
-            options.aovs.push_back(aov);
+    if (!raw.aovs.empty()) parseAovs(raw.aovs, options);
     if (options.aovs.empty()) throw Failure(ExitUsage, "--aovs: no AOV given");
     for (const std::string& text : raw.masks)
         for (const std::string& path : splitCommas(text))

@@ -35,7 +35,8 @@ struct Options {
     std::optional<PXR_NS::GfVec4f> crop; ///< the part to render; see dataWindowOf()
     std::vector<double> frames;          ///< empty: the stage's first
     std::vector<std::string> aovs{"color"};
-    bool half = false; ///< Layer::half of all AOVs
+    std::map<std::string, std::string> layerNames; ///< of AOVs whose layers are to be named otherwise
+    bool half = false;                             ///< Layer::half of all AOVs
     std::vector<std::string> purposes{"default", "render"}; ///< always holds "default"
     std::vector<std::string> mask;
     int refineLevel = 0;

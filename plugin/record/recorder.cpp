@@ -357,6 +357,8 @@ void Recording::writePictures(FrameReport& report) {
     if (paused) delegate.Resume();
     for (Layer& layer : picture.layers) {
         layer.half = _options.half;
+        const auto named = _options.layerNames.find(layer.aov);
+        if (named != _options.layerNames.end()) layer.name = named->second;
         const std::string matte = cryptomatteOf(layer.aov);
         if (!matte.empty() && !picture.info.names.count(matte))
             picture.info.names[matte] = _engine.cryptomatteNames(matte);

@@ -57,7 +57,7 @@ UsdAttribute stronger(const UsdAttribute& ofProduct, const UsdAttribute& ofSetti
 std::string aovOf(const UsdRenderVar& var) {
     const std::string name = textOf(var.GetSourceNameAttr()), type = textOf(var.GetSourceTypeAttr());
     if (type == "primvar") return "primvars:" + name;
-    if (type == "lpe") return "lpe:" + name;
+    if (type == "lpe") return TfStringStartsWith(name, "lpe:") ? name : "lpe:" + name;
     return name == "Ci" ? "color" : name;
 }
 

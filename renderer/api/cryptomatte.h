@@ -1,6 +1,6 @@
 /// @file cryptomatte.h
-/// Names as ids of Cryptomatte: J. Friedman and A. C. Jones, "Fully Automatic ID Mattes with Support for Motion
-/// Blur and Transparency", SIGGRAPH 2015 posters, and the Cryptomatte specification, version 1.2.
+/// Names as ids of Cryptomatte: J. Friedman and A. C. Jones, "Fully Automatic ID Mattes with Support for
+/// Motion Blur and Transparency", SIGGRAPH 2015 posters, and the Cryptomatte specification, version 1.2.
 ///
 /// A Cryptomatte AOV has three layers of two ranks each, (id, coverage, id, coverage), the largest coverage
 /// first. Coverage is the share of the pixel's samples that saw what has the id; with what is transparent

@@ -16,7 +16,10 @@ AovFormat aovFormat(AovKind kind) {
     case AovKind::Peye:
     case AovKind::PatchCoord:
     case AovKind::Variance:
+    case AovKind::Lpe:
         return {3, false};
+    case AovKind::Motion:
+        return {2, false};
     case AovKind::Depth:
     case AovKind::CameraDepth:
     case AovKind::Priority:

@@ -30,6 +30,8 @@ enum class AovKind : uint32_t {
     CryptoObject,   ///< float4, two ranks of (id, coverage) of the objects that samples see: AovRequest::layer
     CryptoMaterial, ///< the same of the materials they show
     CryptoAsset,    ///< the same of ObjectDesc::asset
+    Lpe,            ///< float3, the part of color that came along paths which AovRequest::name describes
+    Motion,         ///< float2, pixels by which what is seen moves while the shutter is open
 };
 
 /// Layers of two ranks that a Cryptomatte AOV has: see renderer/api/cryptomatte.h.
@@ -37,7 +39,7 @@ constexpr uint32_t CryptomatteLayers = 3;
 
 struct AovRequest {
     AovKind kind = AovKind::Color;
-    std::string name;   ///< for AovKind::Primvar, of the primvar
+    std::string name;   ///< for AovKind::Primvar, of the primvar; for AovKind::Lpe, the light path expression
     uint32_t layer = 0; ///< for Cryptomatte, 0 to CryptomatteLayers - 1
     bool operator==(const AovRequest& o) const {
         return kind == o.kind && name == o.name && layer == o.layer;

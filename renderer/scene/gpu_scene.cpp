@@ -166,7 +166,7 @@ void GpuScene::apply(const SceneEdit::LightOp& op, ChangedSet& changed) {
         change = it == _lightDescs.end() ? Change::Added : lightChange(it->second, *op.desc);
         if (change == Change::None) return;
         _lightDescs[op.id] = *op.desc;
-        if (_options.lights) _lights.set(op.id, *op.desc);
+        if (_options.lights) _lights.set(op.id, *op.desc, groupOf(*op.desc));
     }
     changed.elements.push_back({op.id, change});
     _tracedChanged = true;
@@ -190,12 +190,16 @@ void GpuScene::apply(const SceneEdit::CameraOp& op, ChangedSet& changed) {
     changed.elements.push_back({std::monostate(), Change::Camera});
 }
 
+uint32_t GpuScene::groupOf(const LightDesc& light) {
+    return light.group.empty() ? gpu::NO_INDEX : _names.intern(light.group);
+}
+
 bool GpuScene::setOptions(const SceneOptions& options) {
     if (options == _options) return false;
     if (options.lights != _options.lights)
         for (const auto& [id, desc] : _lightDescs) {
             if (options.lights)
-                _lights.set(id, desc);
+                _lights.set(id, desc, groupOf(desc));
             else
                 _lights.remove(id);
         }

@@ -105,6 +105,7 @@ private:
     void apply(const SceneEdit::InstancesOp& op, ChangedSet& changed);
     void apply(const SceneEdit::CameraOp& op, ChangedSet& changed);
     void commitLights();
+    uint32_t groupOf(const LightDesc& light);
 
     Device& _device;
     NameTable _names;

@@ -105,7 +105,7 @@ private:
         WorldBox meshBox, box; ///< of the geometry, splats or volume, in object space; of all instances
         bool transformsPending = true, boundsPending = true;
         bool missingReported = false;
-        bool fresh = false; ///< added since the last commit: what else is said of it is no change
+        bool fresh = false;     ///< added since the last commit: what else is said of it is no change
         gpu::SlotNames names{}; ///< but for the material
         std::vector<SplatPlacement> splats;   ///< of `usable`, as of the last commit
         uint32_t splatSet = 0;                ///< SplatSet::revision of what they show

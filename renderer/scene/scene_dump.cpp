@@ -220,6 +220,7 @@ void dumpLight(SceneDump& dump, const LightDesc& light, bool emits) {
              shadow.falloffGamma);
     out.fact("lightLink", light.lightLink, "shadowLink", light.shadowLink);
     out.fact("visible", light.visible);
+    if (!light.group.empty()) out.fact("group", light.group);
     out.fact("emits", emits);
 }
 

@@ -265,7 +265,7 @@ LightTable::LightTable(Device& device, TextureStore& textures, CategoryTable& ca
     : _impl(std::make_unique<Impl>(device, textures, categories)) {}
 LightTable::~LightTable() = default;
 
-void LightTable::set(LightId id, const LightDesc& desc) {
+void LightTable::set(LightId id, const LightDesc& desc, uint32_t group) {
     Impl::Light light;
     light.name = desc.name;
     light.shaping = desc.shaping;
@@ -283,6 +283,7 @@ void LightTable::set(LightId id, const LightDesc& desc) {
     _impl->forget(id); // after the acquire: a texture in both stays loaded
     if (!emits) return;
     light.record.light = uint32_t(id);
+    light.record.group = group;
     light.record.category = _impl->categories.category(desc.lightLink);
     light.links = CategoryTable::markOf(desc.lightLink);
     _impl->lights[id] = light;

@@ -24,7 +24,8 @@ public:
     LightTable(Device& device, TextureStore& textures, CategoryTable& categories);
     ~LightTable();
 
-    void set(LightId id, const LightDesc& desc);
+    /// `group`: the interned name of its group, NO_INDEX: none.
+    void set(LightId id, const LightDesc& desc, uint32_t group = gpu::NO_INDEX);
     void remove(LightId id);
 
     /// The lights that are instances with an emissive material, in the order of the InstanceRecords, of which

@@ -14,7 +14,7 @@ constexpr uint64_t MaxPixels = 1ull << 30; // kernels count the words of an AOV 
 
 bool isSum(AovKind kind) {
     return kind == AovKind::Color || kind == AovKind::Albedo || kind == AovKind::Variance ||
-           isCryptomatte(kind);
+           kind == AovKind::Lpe || isCryptomatte(kind);
 }
 
 /// The word an AOV holds where nothing is seen.
@@ -52,6 +52,7 @@ void FilmBuffers::clear() {
     _targets = {}, _spreads = {};
     _carried = {}, _seen = {}, _seenAfter = {}, _lists = {};
     _cryptomattes = {};
+    _lightPaths.clear();
     _firstHits.clear();
     _hasPrevious = false;
 }
@@ -68,6 +69,7 @@ void FilmBuffers::allocate() {
     createPictures();
     createSpreads();
     _firstSamples = _device.createBuffer(pixels() * sizeof(glm::vec3), MemoryUse::Device, "Film");
+    _lightPaths.set(_desc.aovs, pixels());
     std::vector<gpu::AovTarget> targets;
     for (const AovRequest& request : _desc.aovs) {
         if (isCryptomatte(request.kind) && !_cryptomattes[cryptomatteIndex(request.kind)])
@@ -191,8 +193,9 @@ bool FilmBuffers::holds(const AovRequest& aov) const {
 }
 
 bool FilmBuffers::wantsNames() const {
-    return std::any_of(_desc.aovs.begin(), _desc.aovs.end(),
-                       [](const AovRequest& aov) { return isCryptomatte(aov.kind); });
+    return std::any_of(_desc.aovs.begin(), _desc.aovs.end(), [](const AovRequest& aov) {
+        return aov.kind == AovKind::Lpe || isCryptomatte(aov.kind);
+    });
 }
 
 bool FilmBuffers::read(const AovRequest& aov, const TileSchedule& schedule, void* dst, size_t words) const {
@@ -204,6 +207,7 @@ bool FilmBuffers::read(const AovRequest& aov, const TileSchedule& schedule, void
     if (aov.kind == AovKind::Albedo)
         readMeans(&gpu::FilmPixel::albedo, &gpu::OldPixel::albedo, schedule, static_cast<float*>(dst));
     if (aov.kind == AovKind::Variance) readVariance(static_cast<float*>(dst));
+    if (aov.kind == AovKind::Lpe) readLightPath(aov.name, static_cast<float*>(dst));
     if (isCryptomatte(aov.kind)) readCryptomatte(aov, static_cast<float*>(dst));
     for (const FirstHitAov& firstHit : _firstHits)
         if (firstHit.request == aov) _device.download(firstHit.values, dst, words * sizeof(uint32_t));
@@ -228,6 +232,11 @@ void FilmBuffers::readVariance(float* dst) const {
         for (int c = 0; c < 3; ++c)
             dst[c] *= weight;
     }
+}
+
+void FilmBuffers::readLightPath(const std::string& expression, float* dst) const {
+    std::vector<gpu::FilmPixel> sumCopy;
+    _lightPaths.read(expression, hostCopy(_sums, sumCopy), pixels(), dst);
 }
 
 /// Of the samples of the current scene, once there are any.

@@ -8,6 +8,7 @@
 #include "renderer/api/film.h"
 #include "renderer/hipr/schedule.h"
 #include "renderer/shading/names.h"
+#include "renderer/trace/light_paths.h"
 #include "renderer/trace/reprojection.h"
 #include "renderer/vulkan/device.h"
 #include "shaders/shared/scene.h"
@@ -18,7 +19,8 @@ namespace hipr {
 /// After a restart the pixels keep their old picture until their first new sample.
 class FilmBuffers {
 public:
-    FilmBuffers(Device& device, NameTable& names) : _device(device), _names(names) {}
+    FilmBuffers(Device& device, NameTable& names)
+        : _device(device), _names(names), _lightPaths(device, names) {}
 
     /// Allocates and clears; every AOV then holds what it shows where nothing is seen. A film without pixels
     /// is fine; one too large for the renderer or the memory gives an error message and counts as such.
@@ -55,6 +57,10 @@ public:
                const gpu::CameraRecord& after, std::vector<gpu::CarriedStrip>& strips);
 
     void describe(gpu::TraceRecord& record) const;
+    /// Its light path expressions.
+    gpu::LpeRecord lightPaths() const { return _lightPaths.record(); }
+    /// Which of SCENE_SHADING_FEATURES its AOVs need.
+    uint32_t shadingFeatures() const { return _lightPaths.any() ? gpu::FILM_SORTS_LIGHT : 0; }
 
     /// Whether what samples differ from their mean by is summed up although no AOV asks for it; takes effect
     /// with the next first samples.
@@ -83,6 +89,7 @@ private:
     void createPictures();
     void createSpreads();
     void readVariance(float* dst) const;
+    void readLightPath(const std::string& expression, float* dst) const;
     void readCryptomatte(const AovRequest& aov, float* dst) const;
 
     Device& _device;
@@ -92,6 +99,7 @@ private:
     Buffer _sums, _oldPicture, _firstSamples, _visibility, _previousHits, _depths, _targets, _spreads;
     Buffer _carried, _seen, _seenAfter, _lists;
     std::array<Buffer, gpu::CRYPTOMATTE_KINDS> _cryptomattes;
+    LightPaths _lightPaths;
     bool _keepsHits = false, _keepsDepths = false, _hasPrevious = false, _keepsPictures = false,
          _keepsSpreads = false;
     std::vector<FirstHitAov> _firstHits;

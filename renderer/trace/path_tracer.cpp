@@ -40,7 +40,7 @@ void PathTracer::prepareFor(uint32_t sceneFlags) {
         _volumeKernels = std::make_unique<BackgroundKernels>(_device, volumeKernelSources());
 }
 
-void PathTracer::setup(gpu::TraceRecord record, const gpu::CameraRecord& camera,
+void PathTracer::setup(gpu::TraceRecord record, const gpu::LpeRecord& lpe, const gpu::CameraRecord& camera,
                        const std::vector<glm::mat4x3>& cameraKeys, uint32_t sceneFlags) {
     _buffers.describe(record);
     record.camera = _camera.address();
@@ -54,11 +54,13 @@ void PathTracer::setup(gpu::TraceRecord record, const gpu::CameraRecord& camera,
     _shading = _shadingVariants.at(sceneFlags & gpu::SCENE_SHADING_FEATURES).get();
     _countsNames = std::any_of(std::begin(record.cryptomattes), std::end(record.cryptomattes),
                                [](uint64_t address) { return address != 0; });
-    if (_countsNames && !_cryptomatte) {
-        _cryptomatte = std::make_unique<BackgroundKernels>(_device, cryptomatteKernelSource());
-        _pathSlots = _device.createBuffer(capacity() * sizeof(uint32_t), MemoryUse::Device, "Path queues");
-    }
-    record.pathSlots = _countsNames ? _pathSlots.address() : 0;
+    _sortsLight = lpe.count > 0;
+    if ((_countsNames || _sortsLight) && !_filmKernels)
+        _filmKernels = std::make_unique<BackgroundKernels>(_device, filmKernelSources());
+    _buffers.keepSlots(_device, _countsNames);
+    _buffers.sortLight(_device, lpe);
+    record.pathSlots = _countsNames ? _buffers.slots.address() : 0;
+    record.lpe = _sortsLight ? _buffers.lpe.address() : 0;
     _device.upload(_record, &record, sizeof(record));
     _device.upload(_camera, &camera, sizeof(camera));
 }
@@ -191,7 +193,8 @@ bool PathTracer::trace(Traversal& traversal, const std::vector<gpu::TileWork>& t
         });
     };
     resolve("resolve", kernel(KernelId::Resolve));
-    if (_countsNames) resolve("cryptomatte", _cryptomatte->get(0));
+    if (_countsNames) resolve("cryptomatte", _filmKernels->get(size_t(FilmKernelId::Cryptomatte)));
+    if (_sortsLight) resolve("light paths", _filmKernels->get(size_t(FilmKernelId::LightPaths)));
     steps.flush();
     if (changes)
         _device.download(_buffers.tileChanges, changes->data(), changes->size() * sizeof(gpu::TileChange));

@@ -63,13 +63,13 @@ public:
     bool ready(std::chrono::milliseconds patience) {
         return _kernels.ready(patience) && _shading && _shading->ready(patience) &&
                (!_volumeKernels || _volumeKernels->ready(patience)) &&
-               (!_cryptomatte || _cryptomatte->ready(patience));
+               (!_filmKernels || _filmKernels->ready(patience));
     }
     uint32_t capacity() const { return _buffers.capacity; }
 
     /// What the next batches render: addresses of scene and film, film size and settings are the caller's to
-    /// fill in. `sceneFlags`: SCENE_*.
-    void setup(gpu::TraceRecord record, const gpu::CameraRecord& camera,
+    /// fill in. `lpe`: of the film, count 0 without expressions. `sceneFlags`: SCENE_* and FILM_*.
+    void setup(gpu::TraceRecord record, const gpu::LpeRecord& lpe, const gpu::CameraRecord& camera,
                const std::vector<glm::mat4x3>& cameraKeys, uint32_t sceneFlags);
 
     /// Renders the tiles and adds them to the film. False when `cancel` was seen: then the film is as before.
@@ -124,11 +124,11 @@ private:
     std::map<uint32_t, std::unique_ptr<BackgroundKernels>> _shadingVariants;
     BackgroundKernels* _shading = nullptr;             ///< the scene's
     std::unique_ptr<BackgroundKernels> _volumeKernels; ///< once a scene had volumes
-    std::unique_ptr<BackgroundKernels> _cryptomatte;   ///< once a film had such AOVs
+    std::unique_ptr<BackgroundKernels> _filmKernels;   ///< once a film had AOVs that need them
     WavefrontBuffers _buffers;
     Buffer _record, _camera, _cameraKeys;
-    Buffer _pathSlots;         ///< with _cryptomatte
     bool _countsNames = false; ///< the film has Cryptomatte AOVs
+    bool _sortsLight = false;  ///< it has light path expressions
     VkDeviceAddress _scene = 0;
     uint32_t _sceneFlags = 0;
     Profile _profile;

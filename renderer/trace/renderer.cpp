@@ -109,7 +109,7 @@ ChangedSet RendererImpl::commit(SceneEdit& edit) {
                             (_schedule.pilot() > 0 && exposureChanged(before, _scene.camera()));
         std::vector<WorldBox> regions = _scene.takeVacated();
         selectTraversal();
-        _tracer.prepareFor(_scene.shadingFeatures());
+        _tracer.prepareFor(_scene.shadingFeatures() | _film.shadingFeatures());
         _scene.commit();
         _scene.addOccupied(changed, regions);
         if (camera || traced) restart(camera ? Cause::Camera : Cause::Edit);
@@ -194,7 +194,9 @@ bool RendererImpl::setup() {
     record.changeScale = _edits.changeScale();
     record.moving = _scene.moves();
     record.frameTime = float(_scene.shutter().frame());
-    _tracer.setup(record, *camera, cameraKeys(*_scene.camera(), *camera, _scene.shutter()), _scene.flags());
+    _tracer.setup(record, _film.lightPaths(), *camera,
+                  cameraKeys(*_scene.camera(), *camera, _scene.shutter()),
+                  _scene.flags() | _film.shadingFeatures());
     _setupPending = false;
     return true;
 }
@@ -340,6 +342,7 @@ bool RendererImpl::readAov(const AovRequest& aov, void* dst, size_t words) {
             _splats.blend(aov, dst, _film.pixels());
             const float exposure = cameraExposure();
             if (aov.kind == AovKind::Color) scaleColors(static_cast<float*>(dst), 4, exposure);
+            if (aov.kind == AovKind::Lpe) scaleColors(static_cast<float*>(dst), 3, exposure);
             if (aov.kind == AovKind::Variance) scaleColors(static_cast<float*>(dst), 3, exposure * exposure);
             return true;
         }

@@ -32,8 +32,13 @@ std::vector<KernelSource> shadingKernelSources(uint32_t features) {
     return sources;
 }
 
-std::vector<KernelSource> cryptomatteKernelSource() {
-    return {{spirv::cryptomatte_spv, spirv::cryptomatte_spv_size, sizeof(gpu::TraceKernelPush), "cryptomatte"}};
+std::vector<KernelSource> filmKernelSources() {
+    constexpr uint32_t push = sizeof(gpu::TraceKernelPush);
+    using namespace spirv;
+    return {
+        {cryptomatte_spv, cryptomatte_spv_size, push, "cryptomatte"},
+        {lpe_spv, lpe_spv_size, push, "lpe"},
+    };
 }
 
 std::vector<KernelSource> volumeKernelSources() {

@@ -20,8 +20,9 @@ enum class ShadingKernelId { Shade, Visibility, Transmit, Emission };
 /// SCENE_HAS_MESH_LIGHTS.
 std::vector<KernelSource> shadingKernelSources(uint32_t features);
 
-/// The kernel that only films with Cryptomatte AOVs need.
-std::vector<KernelSource> cryptomatteKernelSource();
+/// Those that only films with such AOVs need, in the same way.
+enum class FilmKernelId { Cryptomatte, LightPaths };
+std::vector<KernelSource> filmKernelSources();
 
 /// Those that only scenes with volumes need, in the same way.
 enum class VolumeKernelId { Flight, Shadow };

@@ -31,6 +31,31 @@ WavefrontBuffers::WavefrontBuffers(Device& device, uint32_t capacity) : capacity
     device.upload(counters, &zero, sizeof(zero));
 }
 
+void WavefrontBuffers::keepSlots(Device& device, bool keep) {
+    if (keep && !slots)
+        slots = device.createBuffer(capacity * sizeof(uint32_t), MemoryUse::Device, "Path queues");
+    if (!keep) slots = {};
+}
+
+void WavefrontBuffers::sortLight(Device& device, gpu::LpeRecord record) {
+    if (record.count != lpeCount) {
+        const auto make = [&](uint64_t bytes) {
+            return record.count > 0 ? device.createBuffer(capacity * bytes, MemoryUse::Device, "Path queues")
+                                    : Buffer();
+        };
+        lpePaths = make(sizeof(gpu::LpePath));
+        lpeSums = make(record.count * sizeof(glm::vec3));
+        lpeShadows = make(record.count * sizeof(glm::vec3));
+        lpeCount = record.count;
+    }
+    if (record.count == 0) return;
+    record.paths = lpePaths.address();
+    record.sums = lpeSums.address();
+    record.shadows = lpeShadows.address();
+    if (!lpe) lpe = device.createBuffer(sizeof(record), MemoryUse::Device, "Path queues");
+    device.upload(lpe, &record, sizeof(record));
+}
+
 void WavefrontBuffers::describe(gpu::TraceRecord& record) const {
     record.tiles = tiles.address();
     record.headers = headers.address();

@@ -2,10 +2,10 @@
 // that no order of batches shows. Behind `resolve`, with its workgroups.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "material/slot.glsl"
 #include "trace/wavefront.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer CryptoRef { CryptoEntry v[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer SlotNamesRef { SlotNames v[]; };
 
 // One more sample of `id` in the entries from `first` on. Where all are in use it takes the place of the last one that was seen
 // once: what is seen often keeps its place, whatever came before it.

@@ -2,17 +2,8 @@
 // however samples were spread over batches. Workgroups: x covers the pixels of a tile, y is the tile.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "film/sum.glsl"
 #include "trace/wavefront.glsl"
-
-// W. Kahan, "Further remarks on reducing truncation errors", Comm. ACM 8(1), 1965: a million equal samples have their
-// value as mean, where a plain float sum is off by percents.
-void addTo(inout vec3 sum, inout vec3 error, vec3 value) {
-    precise vec3 corrected = value - error;
-    precise vec3 next = sum + corrected;
-    precise vec3 lost = (next - sum) - corrected;
-    error = lost;
-    sum = next;
-}
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FirstSampleRef { vec3 v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer OldPictureRef { OldPixel v[]; };

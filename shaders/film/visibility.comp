@@ -2,6 +2,7 @@
 // (opacity 0) are not seen: their rays go on in the other queue.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "film/motion_vector.glsl"
 #include "trace/wavefront.glsl"
 #include "material/surface.glsl"
 #include "material/presence.glsl"
@@ -15,6 +16,11 @@ void store(AovTarget target, uint pixel, float value) {
 
 void store(AovTarget target, uint pixel, int value) {
     WordRef(target.values).v[pixel] = uint(value);
+}
+
+void store(AovTarget target, uint pixel, vec2 value) {
+    for (uint k = 0u; k < 2u; ++k)
+        WordRef(target.values).v[2u * pixel + k] = floatBitsToUint(value[k]);
 }
 
 void store(AovTarget target, uint pixel, vec3 value) {
@@ -100,6 +106,11 @@ void main() {
         point = shadingPoint(scene, hit);
         surface = evaluateSurface(scene, hit, ray);
     }
-    for (uint k = 0u; k < trace.aovCount; ++k)
-        storeAov(trace, AovTargetRef(trace.aovs).v[k], pixel, seen, point, surface.position, surface.ns);
+    for (uint k = 0u; k < trace.aovCount; ++k) {
+        const AovTarget target = AovTargetRef(trace.aovs).v[k];
+        if (target.kind == AOV_MOTION)
+            store(target, pixel, seen ? motionVector(trace, scene, hit) : vec2(0.0));
+        else
+            storeAov(trace, target, pixel, seen, point, surface.position, surface.ns);
+    }
 }

@@ -4,6 +4,11 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "light/sample.glsl"
 
+// Told of each light and of the radiance that it adds, where a kernel wants to know.
+#ifndef MET_LIGHT
+#define MET_LIGHT(light, radiance)
+#endif
+
 // Weight of meeting `light` by a direction drawn with density `bsdfPdf` (negative: by no other way than this ray, as from
 // the camera) when light sampling would have drawn it with density `lightPdf`.
 float hitWeight(LightRecord light, float bsdfPdf, float lightPdf) {
@@ -38,7 +43,9 @@ vec3 lightsAlongRay(SceneRecord scene, Ray ray, float tHit, bool cameraRay, floa
         LightPoint hit;
         if (!meetLight(light, ray.origin, d, hit) || hit.t <= ray.tMin || hit.t >= tHit) continue;
         float pdf = cameraRay || bsdfPdf < 0.0 ? 0.0 : hit.pdf * lightChance(scene, light, Receiver(ray.origin, n, categories));
-        sum += hitWeight(light, cameraRay ? -1.0 : bsdfPdf, pdf) * shapeRadiance(scene, light, hit.st, d);
+        const vec3 radiance = hitWeight(light, cameraRay ? -1.0 : bsdfPdf, pdf) * shapeRadiance(scene, light, hit.st, d);
+        MET_LIGHT(light, radiance);
+        sum += radiance;
     }
     return sum;
 }
@@ -72,7 +79,9 @@ vec3 environmentRadiance(SceneRecord scene, vec3 direction, bool cameraRay, floa
             radiance = domeRadiance(scene, light, st);
             pdf = light.distribution == 0ul ? 1.0 / (4.0 * PI) : domePdf(light, st);
         }
-        sum += hitWeight(light, cameraRay ? -1.0 : bsdfPdf, pdf * light.selectPdf) * radiance;
+        radiance *= hitWeight(light, cameraRay ? -1.0 : bsdfPdf, pdf * light.selectPdf);
+        MET_LIGHT(light, radiance);
+        sum += radiance;
     }
     return sum;
 }

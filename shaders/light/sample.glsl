@@ -18,6 +18,8 @@ struct LightSample {
     vec2 lobeScale;  // the light's diffuse and specular multipliers, for evalBsdfScaled
     uint64_t shadow; // LightRecord::shadow
     Hit end;         // of a mesh: the point, whose emission is not in `radiance`; instance NO_INDEX: another light
+    bool dome;
+    uint group;      // LightRecord::group
     bool exclusive;  // rays that meet the light do not count it (see isExclusive): the sample has weight 1
 };
 
@@ -119,6 +121,8 @@ bool sampleLight(SceneRecord scene, vec3 p, vec3 n, uint categories, vec4 u, out
     ls.shadow = light.shadow;
     ls.lobeScale = vec2(light.diffuse, light.specular);
     ls.exclusive = isExclusive(light);
+    ls.dome = light.kind == LIGHT_DOME;
+    ls.group = light.group;
     ls.distance = INFINITE_DISTANCE;
     ls.end.instance = NO_INDEX;
     bool seen;

@@ -19,6 +19,7 @@
 // does not darken what is behind it. An emitter inside a medium is thus specified in vacuum radiance.
 #ifndef HIPR_MATERIAL_BSDF_GLSL
 #define HIPR_MATERIAL_BSDF_GLSL
+#include "material/lobe_shares.glsl"
 #include "material/surface.glsl"
 
 const uint LOBE_COAT = 0u;
@@ -28,6 +29,8 @@ const uint LOBE_GLASS = 3u;
 const uint LOBE_DIFFUSE_DOWN = 4u; // through the surface
 const uint LOBE_FUZZ = 5u;
 const uint LOBE_SUBSURFACE = 6u;   // into the medium below: no BSDF, evalBsdf leaves it out
+
+LobeShares lobeShares; // of the last result of evalBsdfScaled(), which is their sum but for rounding
 
 mat3 lobeFrame(Surface s) { return mat3(s.tangent, cross(s.ns, s.tangent), s.ns); }
 
@@ -92,6 +95,9 @@ vec3 evalReflection(Surface s, vec3 o, vec3 i, vec3 h, Facets facets, vec2 lobeS
           (s.lobeChance.y + s.lobeChance.w * reflectedShare(facets.fresnel)) * 0.25 * facets.visible + s.lobeChance.z * i.z / PI +
           s.moreChance.y / (2.0 * PI);
     vec3 shiny = coat + below * specular;
+    lobeShares = LobeShares((1.0 - s.fuzzOut) * lobeScale.x * below * diffuse, lobeScale.x * fuzz * s.fuzzColor,
+                            (1.0 - s.fuzzOut) * lobeScale.y * below * specular,
+                            vec3((1.0 - s.fuzzOut) * lobeScale.y * coat), false);
     return (1.0 - s.fuzzOut) * (lobeScale.y * shiny + lobeScale.x * below * diffuse) + lobeScale.x * fuzz * s.fuzzColor;
 }
 
@@ -116,6 +122,8 @@ vec3 evalTransmission(Surface s, vec3 o, vec3 i, vec3 h, Facets facets, vec2 lob
         diffuse = s.scatterDown * coupling(s, vec3(sheetReflectance(s, towards.x))) * away;
     }
     vec3 below = s.openPbr ? s.below * mix(vec3(1.0), s.coatThrough, s.coat) : vec3(1.0 - s.coatOut);
+    lobeShares = LobeShares((1.0 - s.fuzzOut) * below * lobeScale.x * diffuse, vec3(0.0),
+                            (1.0 - s.fuzzOut) * below * lobeScale.y * glass, vec3(0.0), true);
     return (1.0 - s.fuzzOut) * below * (lobeScale.y * glass + lobeScale.x * diffuse);
 }
 

@@ -3,6 +3,7 @@
 #define HIPR_MATERIAL_POINT_GLSL
 #include "accel/motion.glsl"
 #include "material/frame.glsl"
+#include "material/slot.glsl"
 #include "shared/features.glsl"
 #include "shared/references.glsl"
 
@@ -54,13 +55,6 @@ Corners cornersAt(ShadingPoint point, uint64_t array, uvec3 elements, uint count
     const float w = point.at.weight;
     return Corners(mixKeys(values.v[from.x], values.v[to.x], w), mixKeys(values.v[from.y], values.v[to.y], w),
                    mixKeys(values.v[from.z], values.v[to.z], w));
-}
-
-// Where the slot of a triangle is among those of all objects; of instances that have any.
-uint slotIndex(InstanceRecord instance, GeometryRecord geometry, uint primitive) {
-    uint slot = 0u;
-    if (geometry.triangleSlot != 0ul) slot = uint(Uint16Ref(geometry.triangleSlot).v[primitive]);
-    return instance.firstMaterial + min(slot, instance.materialCount - 1u);
 }
 
 // The MaterialRecord of a hit's slot.

@@ -128,9 +128,10 @@ HIPR_CONST uint SCENE_HAS_OPENPBR = 16u;        // some material of the scene is
 HIPR_CONST uint SCENE_HAS_GRAPHS = 32u;         // some material's program has other steps than GRAPH_READ
 HIPR_CONST uint SCENE_HAS_VOLUMES = 64u;
 HIPR_CONST uint SCENE_HAS_MOTION = 128u;        // some object moves or deforms while the shutter is open
+HIPR_CONST uint FILM_SORTS_LIGHT = 256u;        // the film has light path expressions
 // Those that kernels which shade are specialised by: what the scene does not have is not in their code.
 HIPR_CONST uint SCENE_SHADING_FEATURES =
-    SCENE_HAS_MESH_LIGHTS | SCENE_HAS_OPENPBR | SCENE_HAS_GRAPHS | SCENE_HAS_MOTION;
+    SCENE_HAS_MESH_LIGHTS | SCENE_HAS_OPENPBR | SCENE_HAS_GRAPHS | SCENE_HAS_MOTION | FILM_SORTS_LIGHT;
 
 HIPR_SHARED_END
 #endif

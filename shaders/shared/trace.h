@@ -153,6 +153,7 @@ HIPR_CONST uint AOV_ELEMENT_ID = 8u;
 HIPR_CONST uint AOV_PRIMVAR = 9u;
 HIPR_CONST uint AOV_PEYE = 14u;
 HIPR_CONST uint AOV_PATCH_COORD = 15u;
+HIPR_CONST uint AOV_MOTION = 21u;
 
 // Indices of the queue headers. Ray and transmit queues are read and written in turns; shadow headers alternate so
 // that one can be cleared while the other is in use.

@@ -5,6 +5,21 @@
 #include "trace/camera.glsl"
 #include "sampling/sobol.glsl"
 #include "material/medium.glsl"
+#include "material/slot.glsl"
+#include "trace/lpe_scatter.glsl"
+
+// Lights that a ray meets are sorted one by one: for which path, while they are collected.
+uint64_t metRecord = 0ul; // LpeRecord, or 0
+uint metSlot;
+vec3 metThroughput;
+
+void sortMetLight(LightRecord light, vec3 radiance) {
+    if (!sceneHas(FILM_SORTS_LIGHT) || metRecord == 0ul) return;
+    const uint kind = light.kind == LIGHT_DOME ? LPE_DOME : LPE_LIGHT;
+    addToExpressions(metRecord, metSlot, lightSymbol(LpeRef(metRecord).v, kind, light.group), metThroughput * radiance);
+}
+
+#define MET_LIGHT sortMetLight
 #include "light/sample.glsl"
 #include "light/hit.glsl"
 
@@ -90,11 +105,36 @@ MediumRecord mediumOf(SceneRecord scene, Path path) {
 // The light a ray has run into by `distance`, and the sky if it met nothing.
 void collectLight(TraceRecord trace, SceneRecord scene, Path path, Ray ray, float distance, bool miss) {
     const bool cameraRay = path.depth == 0u;
+    if (sortsLight(trace)) metRecord = trace.lpe, metSlot = path.slot, metThroughput = path.throughput;
     vec3 light = lightsAlongRay(scene, ray, distance, cameraRay, path.bsdfPdf,
                                 unpackLightNormal(path.lightNormal), path.categories);
     if (cameraRay && any(greaterThan(light, vec3(0.0)))) PathRef(trace.paths).v[path.slot].alpha = 1.0;
     if (miss) light += environmentRadiance(scene, ray.direction, cameraRay, path.bsdfPdf, path.categories);
     addRadiance(trace, path.slot, path.throughput * light, path.depth > 1u);
+}
+
+// Adds what something in the scene that emits brings to a path; `group`: its light group.
+void collectEmission(TraceRecord trace, Path path, vec3 value, uint group) {
+    addRadiance(trace, path.slot, value, path.depth > 1u);
+    if (!sortsLight(trace)) return;
+    addToExpressions(trace.lpe, path.slot, lightSymbol(LpeRef(trace.lpe).v, LPE_OBJECT, group), value);
+}
+
+// Sorts a path's shadow ray towards a light by what scatters it: an event, or LPE_BY_LOBES.
+void sortShadow(TraceRecord trace, SceneRecord scene, Path path, LightSample light, LobeShares lobes, uint event) {
+    if (!sortsLight(trace)) return;
+    const bool object = light.end.instance != NO_INDEX;
+    const uint kind = object ? LPE_OBJECT : light.dome ? LPE_DOME : LPE_LIGHT;
+    uint group = light.group;
+    if (object) group = lightGroupAt(scene, light.end);
+    shadowInExpressions(trace.lpe, path.slot, lobes, event, lightSymbol(LpeRef(trace.lpe).v, kind, group));
+}
+
+// The same of a path that goes on.
+void sortScattered(TraceRecord trace, Path path, LobeShares lobes, uint event) {
+    if (!sortsLight(trace) || event == LPE_NO_EVENT) return;
+    const uint random = hashCombine(hashCombine(path.pixel.x | path.pixel.y << 16, path.sampleIndex), path.event);
+    goOnInExpressions(trace.lpe, path.slot, lobes, event, random);
 }
 
 // Lets a scattering medium end the path's next flight. False: nothing is left of the path.

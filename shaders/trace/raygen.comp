@@ -43,6 +43,7 @@ void main() {
     const vec2 film = vec2(pixel) + 0.5 + sampleFilter(trace.pixelFilter, trace.filterWidth, u.xy);
     PathRef(trace.paths).v[slot] = path;
     PathSeenRef(trace.pathSeen).v[slot].look = SEEN_NOTHING;
+    if (trace.lpe != 0ul) beginExpressions(trace.lpe, slot);
     if (trace.pathSlots != 0ul) SlotRef(trace.pathSlots).v[slot] = NO_INDEX;
     Ray ray = lensRay(CameraRef(trace.camera), film, uvec2(trace.width, trace.height), u.zw);
     if (trace.moving != 0u) {

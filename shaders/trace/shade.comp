@@ -24,6 +24,12 @@ bool goesFree(Path path, Surface surface, vec3 wi) {
     return surface.inside;
 }
 
+// Whether a surface is the way out of the medium below it that a path is in: the walk there was one event.
+bool leavesSubsurface(Path path, Surface surface) {
+    return !surface.frontFacing &&
+           (path.medium & ~MEDIUM_DISPERSED) == (surface.material << MEDIUM_SHIFT | MEDIUM_SUBSURFACE);
+}
+
 // Next event estimation: the light of one emitter, to be weighted against finding it by BSDF sampling.
 void sampleDirectLight(TraceRecord trace, SceneRecord scene, Path path, Surface surface, vec3 wo, vec4 u, float time) {
     LightSample light;
@@ -40,6 +46,7 @@ void sampleDirectLight(TraceRecord trace, SceneRecord scene, Path path, Surface 
     ShadowWorkRef(trace.shadowWork).v[i] =
         ShadowWork(contribution, path.depth > 0u ? path.slot | SHADOW_INDIRECT : path.slot, light.shadow,
                    lightMisWeight(light, bsdfPdf), path.event);
+    sortShadow(trace, scene, path, light, lobeShares, leavesSubsurface(path, surface) ? LPE_NO_EVENT : LPE_BY_LOBES);
     if (scene.instanceLights != 0ul) HitRef(trace.shadowEnds).v[i] = light.end;
 }
 
@@ -73,6 +80,9 @@ bool bounce(TraceRecord trace, inout Path path, inout Ray ray, Surface surface, 
     ++path.depth;
     ++path.event;
     if (path.depth >= trace.rouletteDepth && !survives(path, roulette)) return false;
+    sortScattered(trace, path, lobeShares,
+                  leavesSubsurface(path, surface) ? LPE_NO_EVENT
+                                                  : lobe == LOBE_SUBSURFACE ? LPE_SUBSURFACE : LPE_BY_LOBES);
     enterMedium(path, surface, lobe, wi);
     ray = Ray(offsetTowards(surface, wi), 0.0, wi, RAY_INFINITY, ray.time);
     return any(greaterThan(path.throughput, vec3(0.0))) && allFinite(path.throughput);
@@ -101,14 +111,6 @@ void keepSeenSurface(TraceRecord trace, Path path, Surface surface, float time) 
                   packLook(share * scattered / max(scattered + emitted, 1e-6), alpha, 0.0));
 }
 
-// Keeps what the first surface of a path is called.
-void keepSlot(TraceRecord trace, SceneRecord scene, Path path, Hit hit) {
-    const InstanceRecord instance = InstanceRef(scene.instances).v[hit.instance];
-    if (instance.materialCount > 0u)
-        SlotRef(trace.pathSlots).v[path.slot] =
-            slotIndex(instance, GeometryRef(scene.geometries).v[instance.geometry], hit.primitive);
-}
-
 // Scatters a path in the medium it is in, at the end of its flight. False: the path ends here.
 bool scatterInMedium(TraceRecord trace, MediumRecord medium, inout Path path, inout Ray ray) {
     if (path.depth >= trace.maxDepth || path.event - path.depth >= MEDIUM_STEP_LIMIT) return false;
@@ -116,6 +118,7 @@ bool scatterInMedium(TraceRecord trace, MediumRecord medium, inout Path path, in
     if (!survives(path, u.z)) return false;
     ++path.event;
     const vec3 direction = samplePhase(ray.direction, medium.anisotropy, u.xy);
+    if ((path.medium & MEDIUM_KIND) == MEDIUM_INTERIOR) sortScattered(trace, path, lobeShares, LPE_VOLUME);
     ray = Ray(ray.origin + ray.direction * ray.tMax, 0.0, direction, RAY_INFINITY, ray.time);
     path.bsdfPdf = -1.0; // no light was sampled here
     return true;
@@ -140,14 +143,14 @@ void addEmission(TraceRecord trace, SceneRecord scene, Path path, Ray ray, Hit h
     const float bsdfPdf = (path.medium & MEDIUM_KIND) == MEDIUM_NONE ? path.bsdfPdf : -1.0; // see goesFree()
     const float weight =
         emissionWeight(scene, hit, ray, bsdfPdf, unpackLightNormal(path.lightNormal), path.categories);
-    addRadiance(trace, path.slot, path.throughput * emission * weight, path.depth > 1u);
+    const uint group = sortsLight(trace) ? lightGroupAt(scene, hit) : NO_INDEX;
+    collectEmission(trace, path, path.throughput * emission * weight, group);
 }
 
 // What a surface does with a path. False: the path ends here.
 bool scatter(TraceRecord trace, SceneRecord scene, inout Path path, inout Ray ray, Hit hit) {
     Surface surface = evaluateSurface(scene, hit, ray);
-    if (!surface.frontFacing && (path.medium & ~MEDIUM_DISPERSED) == (surface.material << MEDIUM_SHIFT | MEDIUM_SUBSURFACE))
-        setSubsurfaceExit(surface);
+    if (leavesSubsurface(path, surface)) setSubsurfaceExit(surface);
     const vec4 u = randomVector(trace, path, RANDOM_LIGHT);
     if (u.w >= surface.opacity) {
         if (path.event - path.depth >= PATH_PASS_LIMIT) return false;
@@ -159,7 +162,7 @@ bool scatter(TraceRecord trace, SceneRecord scene, inout Path path, inout Ray ra
         PathRef(trace.paths).v[path.slot].alpha = 1.0;
         PathRef(trace.paths).v[path.slot].albedo = surface.albedo;
         if (keepsSeen(trace, path)) keepSeenSurface(trace, path, surface, ray.time);
-        if (trace.pathSlots != 0ul) keepSlot(trace, scene, path, hit);
+        if (trace.pathSlots != 0ul) SlotRef(trace.pathSlots).v[path.slot] = slotAt(scene, hit);
     }
     addEmission(trace, scene, path, ray, hit, surface.emission);
     if (path.depth >= trace.maxDepth) return false;

@@ -2,8 +2,10 @@
 #ifndef HIPR_TRACE_WAVEFRONT_GLSL
 #define HIPR_TRACE_WAVEFRONT_GLSL
 #include "shared/references.glsl"
+#include "shared/features.glsl"
 #include "shared/queue.h"
 #include "shared/trace.h"
+#include "trace/lpe.glsl"
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 
@@ -62,9 +64,15 @@ vec3 pathRadiance(TraceRecord trace, PathState path) {
     return path.radiance + indirect;
 }
 
+// Whether light is sorted by light path expressions.
+bool sortsLight(TraceRecord trace) { return sceneHas(FILM_SORTS_LIGHT) && trace.lpe != 0ul; }
+
 // Adds a share of what a shadow ray carries.
 void arrive(TraceRecord trace, ShadowWork work, vec3 share) {
-    addRadiance(trace, work.slot & ~SHADOW_INDIRECT, work.contribution * share, (work.slot & SHADOW_INDIRECT) != 0u);
+    const uint slot = work.slot & ~SHADOW_INDIRECT;
+    const vec3 value = work.contribution * share;
+    addRadiance(trace, slot, value, (work.slot & SHADOW_INDIRECT) != 0u);
+    if (sortsLight(trace)) arriveInExpressions(trace.lpe, slot, value);
 }
 
 // Just behind a surface that was passed through. The origin stays, so that pdfs of lights further along the ray remain

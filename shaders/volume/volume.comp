@@ -66,6 +66,7 @@ void sampleVolumeLight(TraceRecord trace, SceneRecord scene, Path path, vec3 pos
     ShadowWorkRef(trace.shadowWork).v[i] =
         ShadowWork(contribution, path.depth > 1u ? path.slot | SHADOW_INDIRECT : path.slot, light.shadow,
                    lightMisWeight(light, phase), path.event);
+    sortShadow(trace, scene, path, light, noLobes(), LPE_VOLUME);
     if (scene.instanceLights != 0ul) HitRef(trace.shadowEnds).v[i] = light.end;
 }
 
@@ -114,6 +115,7 @@ bool scatterInVolume(TraceRecord trace, SceneRecord scene, inout Path path, inou
     path.history = extendHistory(path.history, SCATTER_DIFFUSE, path.depth);
     if (path.depth == 0u) path.depth = 1u;
     ++path.event;
+    sortScattered(trace, path, noLobes(), LPE_VOLUME);
     ray = Ray(position, 0.0, wi, RAY_INFINITY, ray.time);
     return allFinite(path.throughput);
 }
@@ -127,7 +129,7 @@ void main() {
     Path path = loadPath(trace, SlotRef(trace.raySlots[push.turn]).v[i]);
     uint met;
     const float t = firstCollision(trace, scene, path, ray, HitRef(trace.hits).v[i].t, met);
-    addRadiance(trace, path.slot, path.throughput * emissionAlong(trace, scene, path, ray, t), path.depth > 1u);
+    collectEmission(trace, path, path.throughput * emissionAlong(trace, scene, path, ray, t), NO_INDEX);
     if (met == NO_INDEX) return;
     HitRef(trace.hits).v[i] = Hit(NO_INDEX, HIT_TAKEN, t, 0.0, 0.0);
     collectLight(trace, scene, path, ray, t, false);

@@ -25,8 +25,12 @@ namespace hipr::test {
 
 namespace {
 
-const char* const aovNames[] = {"color",  "albedo",    "depth",      "cameraDepth",           "normal",
-                                "primId", "elementId", "instanceId", "primvars:displayColor", "primvars:st"};
+const char* const aovNames[] = {"color",           "albedo",         "depth",
+                                "cameraDepth",     "normal",         "primId",
+                                "elementId",       "instanceId",     "primvars:displayColor",
+                                "primvars:st",     "CryptoObject00", "CryptoMaterial00",
+                                "CryptoAsset00",   "motion",         "lpe:C<RD>.*",
+                                "lpe:C.*<[LO].'key'>"};
 
 class PassTask final : public HdTask {
 public:

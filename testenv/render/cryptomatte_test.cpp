@@ -82,8 +82,8 @@ glm::mat4x3 rect(float x, float y, float width, float height, float z = 0) {
 }
 
 /// An object of the scene, with its names.
-ObjectId addNamed(Stage& stage, const std::string& name, const std::string& asset, const MaterialDesc& material,
-                  const glm::mat4x3& transform) {
+ObjectId addNamed(Stage& stage, const std::string& name, const std::string& asset,
+                  const MaterialDesc& material, const glm::mat4x3& transform) {
     const auto geometry = stage.renderer->newId<GeometryId>();
     const auto bound = stage.renderer->newId<MaterialId>();
     const auto object = stage.renderer->newId<ObjectId>();
@@ -105,13 +105,16 @@ void addSky(Stage& stage) {
     stage.add(dome);
 }
 
-/// Pixel (0, 0): nothing; (1, 0): half /a, half nothing; (2, 0): /a over a quarter /b; (3, 0): through a pane of
-/// presence 1/2 at /b.
+/// Pixel (0, 0): nothing; (1, 0): half /a, half nothing; (2, 0): /a over a quarter /b; (3, 0): through a pane
+/// of presence 1/2 at /b.
 void addFourPixels(Stage& stage) {
-    addNamed(stage, "/set/a", "/set", named(matte({0.5f, 0.5f, 0.5f}), "/looks/grey"), rect(1.5f, 0, 1.25f, 1));
-    addNamed(stage, "/set/b", "/set", named(matte({1, 0, 0}), "/looks/\"red\" \xc3\xa9"), rect(2.75f, 0, 1.25f, 1, -1));
+    addNamed(stage, "/set/a", "/set", named(matte({0.5f, 0.5f, 0.5f}), "/looks/grey"),
+             rect(1.5f, 0, 1.25f, 1));
+    addNamed(stage, "/set/b", "/set", named(matte({1, 0, 0}), "/looks/\"red\" \xc3\xa9"),
+             rect(2.75f, 0, 1.25f, 1, -1));
     MaterialDesc pane = named(matte({0, 1, 0}), "/looks/pane");
     pane.opacity = constantValue(0.5f);
+    pane.opacityMode = OpacityMode::Presence;
     addNamed(stage, "/pane", "", pane, rect(3, 0, 1, 1, 1));
     addSky(stage);
     stage.edit.setCamera(above(4));
@@ -121,7 +124,8 @@ void addFourPixels(Stage& stage) {
 } // namespace
 
 TEST(Cryptomatte, IdsAreThoseOfTheSpecification) {
-    // MurmurHash3_x86_32 of texts whose hashes are widely known; the last id is that of the specification's example.
+    // MurmurHash3_x86_32 of texts whose hashes are widely known; the last id is that of the specification's
+    // example.
     EXPECT_EQ(cryptomatteBits("hello"), 0x248bfa47u);
     EXPECT_EQ(cryptomatteBits("hello, world"), 0x149bbb7fu);
     EXPECT_EQ(cryptomatteBits("The quick brown fox jumps over the lazy dog"), 0x2e4ff723u);
@@ -138,8 +142,8 @@ TEST(Cryptomatte, CoversTheShareOfSamples) {
     Stage stage(settingsOf(Samples));
     addFourPixels(stage);
     stage.render();
-    const Mattes objects = read(stage, AovKind::CryptoObject), materials = read(stage, AovKind::CryptoMaterial),
-                 assets = read(stage, AovKind::CryptoAsset);
+    const Mattes objects = read(stage, AovKind::CryptoObject),
+                 materials = read(stage, AovKind::CryptoMaterial), assets = read(stage, AovKind::CryptoAsset);
     const ColorPicture color = stage.color();
     EXPECT_EQ(objects.sum(0, 0), 0.f);
     EXPECT_EQ(objects.layers[0].at(0, 0), glm::vec4(0));

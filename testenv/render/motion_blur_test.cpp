@@ -324,4 +324,46 @@ TEST(MotionBlur, MotionThatIsNotCompleteIsNamedAndLeftOut) {
     EXPECT_TRUE(told);
 }
 
+/// The AOV motion of a stage that has rendered, in world units.
+Picture<glm::vec2> motionOf(Stage& stage) {
+    stage.film(Side, Side, {{AovKind::Color, {}}, {AovKind::Motion, {}}});
+    stage.render();
+    Picture<glm::vec2> motion = stage.read<glm::vec2>(AovKind::Motion);
+    for (glm::vec2& vector : motion.values)
+        vector *= float(pixelSize());
+    return motion;
+}
+
+void expectVector(const glm::vec2& found, glm::vec2 expected) {
+    EXPECT_NEAR(found.x, expected.x, 1e-4);
+    EXPECT_NEAR(found.y, expected.y, 1e-4);
+}
+
+TEST(MotionVectors, GoFromWhereThingsAreToWhereTheyWillBe) {
+    Glow object(quadMesh(), camera(), 1);
+    object.picture(moving(translation(0, 0, 0), translation(0.5f, -0.2f, 0)));
+    const auto motion = motionOf(object);
+    expectVector(motion.at(Side / 2, Side / 2), {0.5f, -0.2f});
+    expectVector(motion.at(0, 0), {0, 0});
+
+    CameraDesc desc = camera();
+    desc.motion = {{0.f, desc.worldToView},
+                   {0.5f, glm::translate(desc.worldToView, glm::dvec3(0.5, -0.2, 0))}};
+    Glow seen(quadMesh(), desc, 1);
+    seen.render();
+    expectVector(motionOf(seen).at(Side / 2, Side / 2), {0.5f, -0.2f});
+
+    Glow wide(wideningQuad(), camera(), 1);
+    wide.render();
+    const auto widening = motionOf(wide);
+    for (uint32_t x = Side / 2 - 8; x < Side / 2 + 8; ++x)
+        expectVector(widening.at(x, Side / 2), {0.7f * float(worldX(x + 0.5) + 0.5), 0});
+}
+
+TEST(MotionVectors, AreNoneBehindAClosedShutter) {
+    Glow stage(quadMesh(), camera({0, 0}), 1);
+    stage.picture(moving(translation(0, 0, 0), translation(0.5f, -0.2f, 0)));
+    expectVector(motionOf(stage).at(Side / 2, Side / 2), {0, 0});
+}
+
 } // namespace

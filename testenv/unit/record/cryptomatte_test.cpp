@@ -34,7 +34,8 @@ TEST(Cryptomatte, ANameStandsForThreeLayers) {
 
 // The key is the beginning of the hash of the layers' name; names are escaped as JSON wants.
 TEST(Cryptomatte, MetadataAreThoseOfTheSpecification) {
-    const auto metadata = metadataOf(pictureOf({{"color", ""}, {"CryptoObject00", ""}, {"CryptoObject01", ""}}));
+    const auto metadata =
+        metadataOf(pictureOf({{"color", ""}, {"CryptoObject00", ""}, {"CryptoObject01", ""}}));
     ASSERT_EQ(metadata.size(), 4u);
     EXPECT_EQ(metadata.begin()->first, "cryptomatte/3ae39a5/conversion");
     EXPECT_EQ(metadata.at("cryptomatte/3ae39a5/name"), "CryptoObject");

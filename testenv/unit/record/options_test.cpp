@@ -37,6 +37,17 @@ TEST(Options, Defaults) {
     EXPECT_EQ(options.refineLevel, 0);
 }
 
+TEST(Options, AovsMayHaveLayersOfOtherNames) {
+    const Options options = parse({"a.usda", "-o", "a.exr", "--half", "--aovs",
+                                   "color,key=lpe:C.{1,2}<L.'a=b'>,ids=CryptoObject,lpe:C<L.'c=d'>"});
+    EXPECT_THAT(options.aovs, ElementsAre("color", "lpe:C.{1,2}<L.'a=b'>", "CryptoObject00", "CryptoObject01",
+                                          "CryptoObject02", "lpe:C<L.'c=d'>"));
+    EXPECT_THAT(options.layerNames,
+                ElementsAre(Pair("CryptoObject00", "ids00"), Pair("CryptoObject01", "ids01"),
+                            Pair("CryptoObject02", "ids02"), Pair("lpe:C.{1,2}<L.'a=b'>", "key")));
+    EXPECT_TRUE(options.half);
+}
+
 TEST(Options, OutputDoesNotSwallowTheScene) {
     const Options options = parse({"-o", "a.png", "-o", "b.exr", "a.usda"});
     EXPECT_THAT(options.outputs, ElementsAre("a.png", "b.exr"));
