@@ -20,7 +20,7 @@ constexpr std::pair<const char*, hipr::AovKind> cryptomatteKinds[] = {
     {"CryptoMaterial", hipr::AovKind::CryptoMaterial},
     {"CryptoAsset", hipr::AovKind::CryptoAsset}};
 
-/// The renderer's AOV of that name, or nothing for a name HiPR does not know (lpe:*, shader:*, edgeId...).
+/// The renderer's AOV of that name, or nothing for a name HiPR does not know (shader:*, edgeId...).
 std::optional<hipr::AovRequest> aovRequest(TfToken const& name);
 
 /// The preferred format and clear value of an AOV. Unknown names get a usable descriptor as well.

@@ -67,6 +67,8 @@ TEST_P(SingleEdit, EqualsFresh) {
     Picture named = before;
     if (named.prims.size() == fresh.prims.size()) named.prims = fresh.prims;
     named.scene = fresh.scene;
+    for (size_t i = 0; i < named.layers.size() && i < fresh.layers.size(); ++i)
+        if (named.layers[i].aov.rfind("Crypto", 0) == 0) named.layers[i] = fresh.layers[i];
     EXPECT_EQ(!named.differenceTo(fresh).empty(), row.shows) << "whether the edit changes the picture";
     scene.reset();
     if (!row.backUntold.empty()) scene.swapStage();
