@@ -251,9 +251,11 @@ void GpuScene::commit() {
     _device.upload(_record, &_hostRecord, sizeof(_hostRecord));
 }
 
-// Pictures must not be black for want of a light. Lights that are switched off are there on purpose, though.
+// Pictures must not be black for want of a light. Lights that are switched off are there on purpose, though,
+// and meshes that emit are lights.
 void GpuScene::commitLights() {
-    if (_camera && (_lightDescs.empty() || !_options.lights)) {
+    const bool unlit = (_lightDescs.empty() || !_options.lights) && _meshLights.lights().empty();
+    if (_camera && unlit) {
         _lights.set(CameraLight, cameraLight(*_camera));
         if (!_cameraLightReported)
             _device.messages()(Severity::Info, "", "no light in the scene; lighting it from the camera");

@@ -61,14 +61,15 @@ def parser() -> argparse.ArgumentParser:
             ("usdrecord", "record a scene with OpenUSD's usdrecord through hdHipr", "SCENE PICTURE")):
         sub = add(name, text, usage=f"hipr {name} [--usd DIR] [--jobs N] [--no-packages] {tail} [OPTION ...]")
         sub.add_argument("arguments", nargs=argparse.REMAINDER, help=f"{tail} and what else {name} takes")
-    sub = add("bench", "measure the renderer, alone, against Cycles, after edits, or its splats",
-              usage="hipr bench [--usd DIR] [--jobs N] [--no-packages] {trace,cycles,edits,splats} [OPTION ...]",
+    sub = add("bench", "measure the renderer, alone, against Cycles, after edits, its lights or splats",
+              usage="hipr bench [--usd DIR] [--jobs N] [--no-packages] {trace,cycles,edits,lights,splats} [OPTION ...]",
               epilog="trace: rays and samples per second against bare Embree, builds, start-up, memory.\n"
                      "cycles: samples per second against Blender's Cycles, which comes from PyPI (about 400 MB).\n"
                      "edits: how soon edits show, in HiPR's modes; analysed with packages from PyPI (about 200 MB).\n"
+                     "lights: every kind of light against Mitsuba, which comes from PyPI (about 100 MB).\n"
                      "splats: frames of Gaussian splats in all modes, and against splat-transform from npm (about 350 MB).\n"
                      "`hipr bench trace --help` lists their options.")
-    sub.add_argument("arguments", nargs=argparse.REMAINDER, help="trace, cycles, edits or splats, and their options")
+    sub.add_argument("arguments", nargs=argparse.REMAINDER, help="trace, cycles, edits, lights or splats, and their options")
     sub = add("test", "build everything and run the tests")
     sub.add_argument("-R", dest="regex", metavar="REGEX", help="only tests whose name matches")
     sub.add_argument("-L", "--label", metavar="REGEX", help="only tests with a label that matches: "

@@ -79,11 +79,12 @@ def bench(options) -> int:
     what, *arguments = options.arguments or [""]
     scripts = {"cycles": ("compare_cycles.py", "--record", "hiprrecord"),
                "edits": ("edits/bench_edits.py", "--record", "hiprrecord"),
+               "lights": ("compare_lights.py", "--record", "hiprrecord"),
                "splats": ("splats/bench_splats.py", "--bench", "hipr-bench-splats")}
     if what != "trace" and what not in scripts:
         raise HiprError(f"there is no benchmark '{what}'." if what else "which benchmark?",
-                        "Say trace, cycles, edits or splats.")
-    sdk, project = _built(options, openusd.CORE, tests=what != "edits")
+                        "Say trace, cycles, edits, lights or splats.")
+    sdk, project = _built(options, openusd.CORE, tests=what not in ("edits", "lights"))
     if what == "trace":
         return _replace(project.program("hipr-bench"), ["trace", *arguments], sdk)
     script, option, program = scripts[what]
