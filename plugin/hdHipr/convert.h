@@ -10,7 +10,9 @@
 #include "pxr/base/gf/vec2f.h"
 #include "pxr/base/gf/vec3f.h"
 #include "pxr/base/gf/vec4f.h"
+#include "pxr/imaging/hd/enums.h"
 #include "pxr/pxr.h"
+#include "renderer/api/cull.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
 
@@ -33,6 +35,23 @@ inline glm::vec3 toGlm(GfVec3f const& v) {
 }
 inline glm::vec4 toGlm(GfVec4f const& v) {
     return glm::vec4(v[0], v[1], v[2], v[3]);
+}
+
+inline hipr::CullStyle toCullStyle(HdCullStyle style) {
+    switch (style) {
+    case HdCullStyleNothing:
+        return hipr::CullStyle::Nothing;
+    case HdCullStyleBack:
+        return hipr::CullStyle::Back;
+    case HdCullStyleFront:
+        return hipr::CullStyle::Front;
+    case HdCullStyleBackUnlessDoubleSided:
+        return hipr::CullStyle::BackUnlessDoubleSided;
+    case HdCullStyleFrontUnlessDoubleSided:
+        return hipr::CullStyle::FrontUnlessDoubleSided;
+    default:
+        return hipr::CullStyle::Inherit;
+    }
 }
 
 } // namespace hdhipr

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
+#include "plugin/hdHipr/convert.h"
 #include "plugin/hdHipr/instancer.h"
 #include "plugin/hdHipr/messages.h"
 #include "plugin/hdHipr/motion.h"
 #include "plugin/hdHipr/primvars.h"
 #include "plugin/hdHipr/renderParam.h"
-#include "plugin/hdHipr/unsupported.h"
 #include "pxr/imaging/hd/extComputationUtils.h"
 #include "pxr/imaging/hd/tokens.h"
 
@@ -19,7 +19,8 @@ namespace {
 
 constexpr HdDirtyBits objectBits = HdChangeTracker::DirtyVisibility | HdChangeTracker::DirtyMaterialId |
                                    HdChangeTracker::DirtyPrimID | HdChangeTracker::DirtyRenderTag |
-                                   HdChangeTracker::DirtyTopology | HdChangeTracker::DirtyCategories;
+                                   HdChangeTracker::DirtyTopology | HdChangeTracker::DirtyCategories |
+                                   HdChangeTracker::DirtyCullStyle;
 constexpr HdDirtyBits instanceBits =
     HdChangeTracker::DirtyTransform | HdChangeTracker::DirtyInstancer | HdChangeTracker::DirtyInstanceIndex;
 constexpr HdDirtyBits styleBits =
@@ -69,8 +70,7 @@ HdHiprMesh::HdHiprMesh(SdfPath const& id, SdfPath const& instancerId, HdHiprRend
 HdDirtyBits HdHiprMesh::GetInitialDirtyBitsMask() const {
     return HdChangeTracker::InitRepr | objectBits | instanceBits | primvarBits |
            HdChangeTracker::DirtyDisplayStyle | HdChangeTracker::DirtyRepr |
-           HdChangeTracker::DirtySubdivTags | HdChangeTracker::DirtyDoubleSided |
-           HdChangeTracker::DirtyCullStyle;
+           HdChangeTracker::DirtySubdivTags | HdChangeTracker::DirtyDoubleSided;
 }
 
 /// Decides what the scene delegate prepares for Sync.
@@ -116,9 +116,6 @@ void HdHiprMesh::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdD
         updateMaterialId(delegate, delegate->GetMaterialId(GetId()));
     }
 
-    if (bits & HdChangeTracker::DirtyCullStyle) {
-        warnOfCullStyle(GetId().GetString(), GetCullStyle(delegate));
-    }
     const std::string lightGroup = _lightGroup;
     const Rebuild rebuild = std::max(syncTopology(delegate, bits, reprToken), syncPrimvars(delegate, bits));
     if (rebuild != Rebuild::None) {
@@ -350,6 +347,7 @@ void HdHiprMesh::sendObject(HdSceneDelegate* delegate, HdHiprRenderParam& param)
     state.desc.primId = GetPrimId();
     state.desc.categories = _links.names();
     state.desc.lightGroup = _lightGroup;
+    state.desc.cull = toCullStyle(GetCullStyle(delegate));
     const hipr::MaterialId own = param.materialId(GetMaterialId());
     state.desc.materials.push_back(own);
     for (SdfPath const& path : _subsetMaterials) {

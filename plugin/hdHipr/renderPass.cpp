@@ -6,7 +6,6 @@
 #include "plugin/hdHipr/messages.h"
 #include "plugin/hdHipr/renderBuffer.h"
 #include "plugin/hdHipr/renderParam.h"
-#include "plugin/hdHipr/unsupported.h"
 #include "pxr/imaging/hd/renderIndex.h"
 #include "pxr/imaging/hd/tokens.h"
 
@@ -28,6 +27,7 @@ hipr::CameraDesc cameraOf(HdRenderPassState const& state, GfMatrix4d const& crop
         desc.shutter = camera->shutter();
         desc.motion = camera->motion();
     }
+    desc.cull = toCullStyle(state.GetCullStyle());
     for (GfVec4d const& plane : state.GetClipPlanes()) {
         desc.clipPlanes.emplace_back(plane[0], plane[1], plane[2], plane[3]);
     }
@@ -107,7 +107,6 @@ void HdHiprRenderPass::_Execute(HdRenderPassStateSharedPtr const& state, TfToken
         warnOnce("", "the host asks for no AOV, so there is nothing to render into");
         return;
     }
-    warnOfCullStyle("", state->GetCullStyle());
 
     Frame frame;
     const VtValue dataWindow =

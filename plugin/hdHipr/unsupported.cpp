@@ -7,12 +7,6 @@ PXR_NAMESPACE_OPEN_SCOPE
 
 namespace hdhipr {
 
-void warnOfCullStyle(std::string const& subject, HdCullStyle style) {
-    if (style != HdCullStyleDontCare && style != HdCullStyleNothing) {
-        warnOnce(subject, "culling faces by their side is not supported; all faces are drawn");
-    }
-}
-
 void warnOfMotion(HdSceneDelegate& delegate, SdfPath const& id, TfToken const& points,
                   hipr::InstanceMotion const& motion) {
     if (!motion.times.empty() || samplePrimvar(delegate, id, points).moves()) {

@@ -9,9 +9,6 @@ PXR_NAMESPACE_OPEN_SCOPE
 
 namespace hdhipr {
 
-/// Warns of a cull style that would leave faces out. `subject`: the prim that has it; empty for the view.
-void warnOfCullStyle(std::string const& subject, HdCullStyle style);
-
 /// Warns when splats move while the shutter is open, with `motion` or by their `points`. Reads samples: call
 /// it only while a shutter is open.
 void warnOfMotion(HdSceneDelegate& delegate, SdfPath const& id, TfToken const& points,

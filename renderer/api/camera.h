@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "renderer/api/cull.h"
 #include "renderer/api/motion.h"
 #include "renderer/api/types.h"
 
@@ -36,6 +37,7 @@ struct CameraDesc {
     /// Planes (a, b, c, d) in view space; the camera sees no point with a x + b y + c z + d < 0. What is cut
     /// off still casts light and shadow. Those beyond MaxClipPlanes are ignored.
     std::vector<glm::dvec4> clipPlanes{};
+    CullStyle cull = CullStyle::Nothing; ///< of objects that have none of their own
     Shutter shutter{};
     /// By rising time; below two the camera stands still. What first-hit AOVs show is seen from worldToView.
     std::vector<CameraKey> motion{};
@@ -43,8 +45,8 @@ struct CameraDesc {
 
     /// Whether samples taken with one are samples of the other.
     bool sameSamples(const CameraDesc& o) const {
-        return sameView(o) && lens == o.lens && clipPlanes == o.clipPlanes && shutter == o.shutter &&
-               motion == o.motion;
+        return sameView(o) && lens == o.lens && clipPlanes == o.clipPlanes && cull == o.cull &&
+               shutter == o.shutter && motion == o.motion;
     }
     /// Whether both look at the same from the same place.
     bool sameView(const CameraDesc& o) const {

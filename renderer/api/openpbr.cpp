@@ -70,6 +70,7 @@ const std::array<OpenPbrInputInfo, size_t(OpenPbrInput::Count)>& openPbrInputs()
         direction("geometry_coat_normal", Use::None),
         direction("geometry_tangent", Use::None),
         direction("geometry_coat_tangent", Use::None),
+        scalar("dielectric_priority", 0.f, -1e6f, 1e6f, Use::Constant),
     }};
     return rows;
 }

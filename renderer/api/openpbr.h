@@ -52,6 +52,9 @@ enum class OpenPbrInput : uint32_t {
     GeometryCoatNormal,
     GeometryTangent,
     GeometryCoatTangent,
+    /// No input of OpenPBR 1.1, but of other renderers' surfaces by this name: where transmitting objects
+    /// overlap, the inside of the one of the highest priority is there. All 0: overlaps are not resolved.
+    DielectricPriority,
     Count
 };
 
@@ -65,10 +68,10 @@ enum class InputUse : uint32_t {
 
 /// One row of the table that parser, renderer, dump and documentation share.
 struct OpenPbrInputInfo {
-    const char* name;      ///< as in the specification
-    uint32_t components;   ///< 1 or 3
-    glm::vec4 value;       ///< the specification's default
-    float least, most;     ///< range of the components
+    const char* name;    ///< as in the specification
+    uint32_t components; ///< 1 or 3
+    glm::vec4 value;     ///< the specification's default
+    float least, most;   ///< range of the components
     InputUse use;
 };
 

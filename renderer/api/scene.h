@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "renderer/api/camera.h"
+#include "renderer/api/cull.h"
 #include "renderer/api/light.h"
 #include "renderer/api/material.h"
 #include "renderer/api/mesh.h"
@@ -30,6 +31,7 @@ struct ObjectDesc {
     VolumeId volume = VolumeId::None; ///< a volume instead of a geometry; its material is the first one
     std::string asset{}; ///< what Cryptomatte takes it for a part of; empty: of itself
     std::string lightGroup{}; ///< of the light that it emits, for light path expressions; empty: none
+    CullStyle cull = CullStyle::Inherit;
 };
 
 /// All placements of one object. The geometry is never copied per instance. An object that was never given

@@ -114,6 +114,7 @@ template <bool First> void standardSurface(const Surface& surface, MaterialDesc&
     w.set(In::EmissionColor, "emission_color", 1.f);
     w.set(In::GeometryOpacity, b.op(GRAPH_DOT, w.in("opacity", 1.f), GraphValue(1.f / 3.f), {}, 3));
     w.set(In::GeometryThinWalled, "thin_walled", 0.f);
+    w.set(In::DielectricPriority, "dielectric_priority", 0.f);
     w.direction(In::GeometryNormal, "normal");
     w.direction(In::GeometryCoatNormal, "coat_normal");
     for (const char* name : {"specular_rotation", "coat_rotation", "transmission_extra_roughness", "tangent"})

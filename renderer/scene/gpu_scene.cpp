@@ -187,6 +187,7 @@ void GpuScene::apply(const SceneEdit::InstancesOp& op, ChangedSet& changed) {
 void GpuScene::apply(const SceneEdit::CameraOp& op, ChangedSet& changed) {
     if (_camera && *_camera == op.desc) return;
     _camera = op.desc;
+    _objects.setViewCull(op.desc.cull);
     changed.elements.push_back({std::monostate(), Change::Camera});
 }
 
@@ -218,6 +219,7 @@ uint32_t GpuScene::shadingFeatures() const {
     }
     if (shutter().blurs() && (_geometries.anyMotion() || _objects.anyMotion()))
         features |= gpu::SCENE_HAS_MOTION;
+    if (_objects.anyCulling()) features |= gpu::SCENE_HAS_CULLING;
     return features;
 }
 

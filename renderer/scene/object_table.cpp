@@ -23,6 +23,13 @@ bool isTranslucent(const std::vector<Primvar>& primvars) {
     return false;
 }
 
+uint32_t cullFlags(CullStyle style, bool doubleSided) {
+    if (style == CullStyle::BackUnlessDoubleSided && !doubleSided) style = CullStyle::Back;
+    if (style == CullStyle::FrontUnlessDoubleSided && !doubleSided) style = CullStyle::Front;
+    if (style == CullStyle::Back) return gpu::INSTANCE_CULL_BACK;
+    return style == CullStyle::Front ? gpu::INSTANCE_CULL_FRONT : 0;
+}
+
 } // namespace
 
 bool ObjectTable::Placement::operator==(const Placement& o) const {
@@ -52,7 +59,8 @@ void ObjectTable::setObject(ObjectId id, const ObjectDesc& desc, ChangedSet& cha
             entry.desc->volume != desc.volume)
             change = change | Change::Geometry;
         if (entry.desc->materials != desc.materials) change = change | Change::Material;
-        if (entry.desc->visible != desc.visible) change = change | Change::Visibility;
+        if (entry.desc->visible != desc.visible || entry.desc->cull != desc.cull)
+            change = change | Change::Visibility;
         if (entry.desc->primId != desc.primId || entry.desc->asset != desc.asset ||
             entry.desc->lightGroup != desc.lightGroup)
             change = change | Change::Primvar;
@@ -65,6 +73,12 @@ void ObjectTable::setObject(ObjectId id, const ObjectDesc& desc, ChangedSet& cha
     entry.desc = desc;
     entry.names = namesOf(desc);
     note(changed, id, entry, change);
+}
+
+bool ObjectTable::anyCulling() const {
+    return std::any_of(_entries.begin(), _entries.end(), [&](const auto& e) {
+        return e.second.desc && cullFlags(styleOf(*e.second.desc), false) != 0;
+    });
 }
 
 void ObjectTable::setInstances(ObjectId id, const InstancesDesc& desc, ChangedSet& changed) {
@@ -190,6 +204,7 @@ ObjectTable::Placement ObjectTable::place(Entry& entry, const Geometry* geometry
     placement.geometry = geometry->slot;
     placement.materialCount = geometry->slotCount;
     placement.primId = entry.desc->primId;
+    placement.flags = cullFlags(styleOf(*entry.desc), geometry->mesh->doubleSided);
     const bool fallbackNonOpaque =
         geometry->translucent || (entry.instances && isTranslucent(entry.instances->primvars));
     for (uint32_t slot = 0; slot < geometry->slotCount; ++slot) {

@@ -49,6 +49,10 @@ public:
     void setShutter(const Shutter& shutter);
     /// Whether kernels are told what slots are called. Takes effect in commit(); returns whether that is new.
     bool keepNames(bool keep) { return std::exchange(_keepsNames, keep) != keep; }
+    /// What objects that inherit their style have. Takes effect in commit().
+    void setViewCull(CullStyle style) { _viewCull = style; }
+    /// Whether some object may have INSTANCE_CULL_*.
+    bool anyCulling() const;
     /// Whether any instance has motion.
     bool anyMotion() const;
 
@@ -84,6 +88,9 @@ public:
               const VolumeTable& volumes, const MaterialNames& nameOf) const;
 
 private:
+    CullStyle styleOf(const ObjectDesc& desc) const {
+        return desc.cull == CullStyle::Inherit ? _viewCull : desc.cull;
+    }
     /// Where an object's instances are and what they have in common.
     struct Placement {
         uint32_t first = 0, count = 0, geometry = 0, firstMaterial = 0, materialCount = 0, flags = 0;
@@ -156,6 +163,7 @@ private:
     std::vector<uint32_t> _materialIndices;
     std::vector<glm::mat4x3> _keys; ///< see InstanceRecord::firstKey
     Shutter _shutter;
+    CullStyle _viewCull = CullStyle::Nothing;
     DeviceTable _recordTable, _materialTable, _slotNameTable, _keyTable;
     std::vector<WorldBox> _vacated;
     glm::vec3 _boundsMin{0.f}, _boundsMax{0.f};

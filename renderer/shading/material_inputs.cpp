@@ -315,6 +315,7 @@ ResolvedMaterial resolveMaterial(const MaterialDesc& desc, NameTable& names, Tex
     Resolver resolver{desc, names, textures};
     if (desc.model == MaterialModel::OpenPbr) {
         result.thinWalled = resolver.constant(OpenPbrInput::GeometryThinWalled).x > 0.5f;
+        result.priority = int(resolver.constant(OpenPbrInput::DielectricPriority).x);
         resolver.openPbr(result.inputs);
         if (!result.thinWalled) resolver.media(result);
     } else {
@@ -346,6 +347,7 @@ MaterialRow describeMaterial(const ResolvedMaterial& material, const TextureStor
     row.subsurface = material.subsurface;
     row.steps = material.steps;
     row.presenceSteps = material.presenceSteps;
+    row.priority = material.priority;
     for (const ResolvedInput& input : material.inputs)
         row.constants.push_back(input.constant);
     row.constants.insert(row.constants.end(), material.stepConstants.begin(), material.stepConstants.end());

@@ -37,6 +37,7 @@ struct ResolvedMaterial {
     uint32_t opacityRead = gpu::NO_INDEX; ///< which read opacity is, if it is a texture
     bool specularWorkflow = false;
     bool thinWalled = false;
+    int priority = 0; ///< of what it is inside
     gpu::MediumRecord interior{}, subsurface{};
     OpacityMode opacityMode = OpacityMode::Transparent;
 };
@@ -54,6 +55,7 @@ struct MaterialRow {
     std::vector<gpu::InputNode> nodes;
     std::vector<gpu::GraphStep> steps;
     uint32_t presenceSteps = 0;
+    int priority = 0;
 };
 
 /// Valid after TextureStore::commit().

@@ -34,7 +34,7 @@ uint32_t featuresOf(const ResolvedMaterial& m) {
         return (step.code & 0xff) != gpu::GRAPH_READ;
     });
     return (m.model == MaterialModel::OpenPbr ? gpu::SCENE_HAS_OPENPBR : 0) |
-           (graph ? gpu::SCENE_HAS_GRAPHS : 0);
+           (graph ? gpu::SCENE_HAS_GRAPHS : 0) | (m.priority != 0 ? gpu::SCENE_HAS_NESTING : 0);
 }
 
 } // namespace
@@ -102,6 +102,7 @@ void MaterialTable::Impl::write(Material& material) {
     record.stepCount = uint32_t(row.steps.size());
     record.presenceSteps = row.presenceSteps;
     record.flags = row.flags;
+    record.priority = row.priority;
     if (moved || material.written != record.nodes || material.program != program) append(bytes, program);
     rows.write(device, material.row, bytes.data(), bytes.size());
     material.program = std::move(program);

@@ -70,6 +70,19 @@ void storeAov(TraceRecord trace, AovTarget target, uint pixel, bool seen, Shadin
     }
 }
 
+// Whether the camera sees anything of a hit.
+bool shows(SceneRecord scene, Hit hit, Ray ray) {
+    if (sceneHas(SCENE_HAS_CULLING)) {
+        ShadingPoint point = shadingPoint(scene, hit);
+        moveTo(point, scene, ray.time);
+        Surface s;
+        vec3 e1, e2;
+        setGeometry(s, point, -ray.direction, e1, e2);
+        if (culls(point.instance.flags, s.frontFacing)) return false;
+    }
+    return (scene.flags & SCENE_HAS_NON_OPAQUE) == 0u || evaluatePresence(scene, hit, ray.time) > 0.0;
+}
+
 void main() {
     const TraceRecord trace = TraceRecordRef(push.record).v;
     const uint i = gl_GlobalInvocationID.x;
@@ -80,7 +93,7 @@ void main() {
     Ray ray = RayRef(trace.rays[push.turn]).v[i];
     const bool seen = hit.instance != NO_INDEX;
 
-    if (seen && (scene.flags & SCENE_HAS_NON_OPAQUE) != 0u && evaluatePresence(scene, hit, ray.time) <= 0.0) {
+    if (seen && !shows(scene, hit, ray)) {
         ray.tMin = passedDistance(hit.t);
         const uint other = 1u - push.turn;
         const uint j = appendToQueue(trace, QUEUE_RAYS + other);

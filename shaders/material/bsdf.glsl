@@ -74,7 +74,7 @@ vec3 evalReflection(Surface s, vec3 o, vec3 i, vec3 h, Facets facets, vec2 lobeS
     float coat = s.coat * coatVisible / (coatLambda + ggxLambda(i, s.coatAlpha));
     vec3 below = s.below, interfaceIn;
     if (s.openPbr) {
-        vec2 towards = interfaceAlbedo(s.openPbrTable, interfaceCell(s.inside, s.interfaceStep, s.roughness), i.z);
+        vec2 towards = interfaceAlbedo(s.openPbrTable, interfaceCell(s.dense, s.interfaceStep, s.roughness), i.z);
         interfaceIn = vec3(sheetReflectance(s, towards.x));
         float missing = 1.0 - single.x - single.y;
         float lost = s.thinWalled ? missing : 1.0 - towards.y;
@@ -115,7 +115,7 @@ vec3 evalTransmission(Surface s, vec3 o, vec3 i, vec3 h, Facets facets, vec2 lob
         pdf += s.lobeChance.w * density * (1.0 - reflectedShare(facets.fresnel));
     }
     if (s.openPbr) {
-        bool otherSide = s.thinWalled ? s.inside : !s.inside;
+        bool otherSide = s.thinWalled ? s.dense : !s.dense;
         vec2 towards = interfaceAlbedo(s.openPbrTable, interfaceCell(otherSide, s.interfaceStep, s.roughness), -i.z);
         vec2 single = specularAlbedo(s.albedoTable, -i.z, s.roughness);
         glass += s.glassTint * s.multiDown * (s.thinWalled ? 1.0 - single.x - single.y : 1.0 - towards.y) * away;

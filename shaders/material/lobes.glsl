@@ -16,6 +16,9 @@ struct Surface {
     bool openPbr;       // how layers share light: OpenPBR's way, else UsdPreviewSurface's
     bool thinWalled;    // a sheet: what is transmitted is not refracted
     uint material;      // its MaterialRecord
+    uint around;        // the MaterialRecord of what the object is in, NO_INDEX: of nothing
+    float aroundIor;    // and its index of refraction
+    bool hidden;        // it is in something of a higher priority
 
     vec3 metal;         // weight of the reflection with Schlick's Fresnel term from f0 to 1, less edge * c * (1 - c)^6
     vec3 f0;
@@ -49,6 +52,7 @@ struct Surface {
     uint64_t albedoTable, openPbrTable;
     float interfaceStep; // |(1 - index) / (1 + index)| of the interface
     bool inside;         // the viewer is inside the object
+    bool dense;          // the index is higher on the viewer's side
     vec3 interfaceOut;  // directional albedo of what lies on the diffuse lobe, towards the viewer
     vec3 interfaceMean; // its mean over all directions
     vec3 multiMetal;    // light reflected by several microfacets: by metal,
@@ -80,7 +84,7 @@ float cosineInFilm(Surface s, float cosine, float before) {
 vec3 interfaceFresnel(Surface s, float cosine) {
     vec3 reflectance = vec3(dielectricFresnel(cosine, s.eta));
     if (s.film > 0.0) {
-        float before = s.inside ? 1.0 / s.eta : 1.0, beyond = s.inside ? 1.0 : s.eta;
+        float before = s.aroundIor * (s.inside ? 1.0 / s.eta : 1.0), beyond = s.aroundIor * (s.inside ? 1.0 : s.eta);
         float inFilm = cosineInFilm(s, cosine, before), upper = dielectricFresnel(cosine, s.filmIor / before);
         float lower = dielectricFresnel(inFilm, beyond / s.filmIor);
         float sign_ = (before - s.filmIor) * (s.filmIor - beyond) < 0.0 ? -1.0 : 1.0;

@@ -23,11 +23,11 @@ float evenRoughness(float roughness, float anisotropy) {
 // Reflectance at normal incidence is the square of this.
 float indexStep(float eta) { return abs(1.0 - eta) / (1.0 + eta); }
 
-// The index of the interface below the coat, and its step: specification, "Dielectric base", "Coat", "Total internal
-// reflection".
-float interfaceIndex(MaterialInputs inputs, float coat, out float step_) {
+// The index of the interface below the coat over that of what is `around`, and its step: specification, "Dielectric base",
+// "Coat", "Total internal reflection".
+float interfaceIndex(MaterialInputs inputs, float around, float coat, out float step_) {
     float base = clamp(inputs.ior, 0.1, 10.0), coated = base / clamp(inputs.coatIor, 0.1, 10.0);
-    float eta = mix(base, max(coated, 1.0 / coated), coat);
+    float eta = mix(base / around, max(coated, 1.0 / coated), coat);
     step_ = min(indexStep(eta) * sqrt(max(inputs.specularWeight, 0.0)), INTERFACE_MOST);
     float signed_ = eta < 1.0 ? -step_ : step_;
     return (1.0 + signed_) / (1.0 - signed_);
@@ -75,7 +75,7 @@ void setOpenPbrLobes(inout Surface s, MaterialInputs inputs, uint flags) {
     s.fuzz = s.inside ? 0.0 : clamp(inputs.fuzzWeight, 0.0, 1.0);
     s.fuzzColor = clamp(inputs.fuzzColor, 0.0, 1.0);
     s.fuzzRoughness = clamp(inputs.fuzzRoughness, FUZZ_LEAST_ROUGHNESS, 1.0);
-    s.coatEta = clamp(inputs.coatIor, 0.1, 10.0);
+    s.coatEta = clamp(inputs.coatIor, 0.1, 10.0) / s.aroundIor;
     float coatRoughness = clamp(inputs.coatRoughness, 0.0, 1.0), coat2 = coatRoughness * coatRoughness;
     s.coatRoughness = evenRoughness(coatRoughness, inputs.coatAnisotropy);
     s.coatAlpha = stretchedAlpha(coatRoughness, inputs.coatAnisotropy);
@@ -85,9 +85,10 @@ void setOpenPbrLobes(inout Surface s, MaterialInputs inputs, uint flags) {
     rough = mix(rough, sqrt(sqrt(min(1.0, rough2 * rough2 + 2.0 * coat2 * coat2))), coat);
     s.roughness = evenRoughness(rough, inputs.anisotropy);
     s.alpha = stretchedAlpha(rough, inputs.anisotropy);
-    float eta = interfaceIndex(inputs, coat, s.interfaceStep);
+    float eta = interfaceIndex(inputs, s.aroundIor, coat, s.interfaceStep);
     if ((flags & MATERIAL_REFRACTIVE) != 0u) eta = usableIor(eta);
     s.eta = s.inside ? 1.0 / eta : eta;
+    s.dense = s.eta < 1.0;
     setOpenPbrBase(s, inputs, flags);
     s.emission = max(inputs.emissionLuminance, 0.0) * max(inputs.emissionColor, 0.0);
 }
@@ -119,7 +120,7 @@ void setOpenPbrMulti(inout Surface s, vec2 single, vec2 seen, vec2 mean) {
     vec3 average = clamp(s.f0 + (1.0 - s.f0) / 21.0 - s.edge / 126.0, 0.0, 1.0);
     s.multiMetal = s.metal * average * average * whole / (1.0 - average * (1.0 - whole));
     s.multiMetal *= missing / max(1.0 - whole, 1e-4);
-    InterfaceCell other = interfaceCell(!s.inside, s.interfaceStep, s.roughness);
+    InterfaceCell other = interfaceCell(!s.dense, s.interfaceStep, s.roughness);
     float here = max(1.0 - mean.y, 1e-5), there = max(1.0 - meanInterfaceAlbedo(s.openPbrTable, other).y, 1e-5);
     float transmitted = s.thinWalled ? 0.5 : min(1.0, there * s.eta * s.eta / here);
     float lost = s.glass * (s.thinWalled ? missing / max(1.0 - whole, 1e-4) : 1.0 - seen.y);
@@ -130,7 +131,7 @@ void setOpenPbrMulti(inout Surface s, vec2 single, vec2 seen, vec2 mean) {
 // What depends on the viewer: albedos of the lobes seen from `cosine`, and how often each is sampled.
 void setOpenPbrViewer(inout Surface s, float darkening, float cosine) {
     vec2 single = specularAlbedo(s.albedoTable, cosine, s.roughness);
-    InterfaceCell cell = interfaceCell(s.inside, s.interfaceStep, s.roughness);
+    InterfaceCell cell = interfaceCell(s.dense, s.interfaceStep, s.roughness);
     vec2 seen = interfaceAlbedo(s.openPbrTable, cell, cosine), mean = meanInterfaceAlbedo(s.openPbrTable, cell);
     s.interfaceOut = vec3(sheetReflectance(s, seen.x));
     if (s.film > 0.0) { // by as much as it changes a smooth interface
@@ -172,7 +173,7 @@ void setSubsurfaceExit(inout Surface s) {
     s.emission = s.metal = s.dielectric = s.scatterUp = s.interfaceOut = s.multiMetal = vec3(0.0);
     s.glass = s.diffuseWeight = s.subsurface = s.coat = s.fuzz = s.multiUp = s.multiDown = s.coatOut = s.fuzzOut = 0.0;
     s.scatterDown = s.below = vec3(1.0);
-    s.inside = true;
+    s.inside = s.dense = true;
     InterfaceCell outside = interfaceCell(false, s.interfaceStep, s.roughness);
     s.interfaceMean = vec3(meanInterfaceAlbedo(s.openPbrTable, outside).x);
     s.lobeChance = vec4(0.0);

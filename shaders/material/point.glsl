@@ -69,6 +69,11 @@ vec3 triangleNormal(vec3 e1, vec3 e2, bool mirrored) {
     return mirrored ? -n : n;
 }
 
+// Whether the camera does not see this side of an instance.
+bool culls(uint instanceFlags, bool frontFacing) {
+    return sceneHas(SCENE_HAS_CULLING) && (instanceFlags & (frontFacing ? INSTANCE_CULL_FRONT : INSTANCE_CULL_BACK)) != 0u;
+}
+
 // Interpolated normal in world space, on the front side.
 vec3 interpolatedNormal(ShadingPoint point, vec3 ng) {
     if (point.geometry.normals == 0ul) return ng;

@@ -5,6 +5,7 @@
 #ifndef HIPR_MATERIAL_SURFACE_GLSL
 #define HIPR_MATERIAL_SURFACE_GLSL
 #include "material/inputs.glsl"
+#include "material/nesting.glsl"
 #include "material/openpbr.glsl"
 #include "material/preview.glsl"
 
@@ -54,8 +55,32 @@ void setLobes(inout Surface s, MaterialInputs inputs, uint flags, float cosine) 
     }
 }
 
-// The surface at `hit`, seen along `ray` (unit direction).
-Surface evaluateSurface(SceneRecord scene, Hit hit, Ray ray) {
+// Whether a path changes what it is inside of when it crosses a surface.
+bool bounds(MaterialRecord material) {
+    const uint kind = MATERIAL_REFRACTIVE | MATERIAL_OPENPBR;
+    return (material.flags & kind) == kind;
+}
+
+// Finds what is around the object, for a path that is inside of `interiors` when it meets it.
+void setSurroundings(inout Surface s, SceneRecord scene, MaterialRecord material, uvec2 interiors) {
+    s.around = NO_INDEX;
+    s.aroundIor = 1.0;
+    s.hidden = false;
+    if (!sceneHas(SCENE_HAS_NESTING) || interiors == uvec2(0u) || (material.flags & MATERIAL_OPENPBR) == 0u) return;
+    const bool leaving = bounds(material) && !s.frontFacing;
+    const uint entered = findInterior(interiors, s.material + 1u);
+    if (leaving) interiors = crossedInteriors(interiors, s.material, false);
+    s.around = foremostInterior(scene, interiors);
+    if (s.around == NO_INDEX) return;
+    const MaterialRecord around = MaterialRef(scene.materials).v[s.around];
+    s.aroundIor = clamp(Vec4Ref(around.constants).v[INPUT_SPECULAR_IOR].x, 0.1, 10.0);
+    // Behind the place that it was at are those that were entered later.
+    const bool covered = leaving && entered < INTERIORS && findInterior(interiors, s.around + 1u) >= entered;
+    s.hidden = bounds(material) && around.priority >= material.priority + (covered ? 0 : 1);
+}
+
+// The surface at `hit`, seen along `ray` (unit direction) by a path that is inside of `interiors`.
+Surface evaluateSurface(SceneRecord scene, Hit hit, Ray ray, uvec2 interiors) {
     Surface s;
     vec3 wo = -ray.direction;
     ShadingPoint point = shadingPoint(scene, hit);
@@ -67,6 +92,7 @@ Surface evaluateSurface(SceneRecord scene, Hit hit, Ray ray) {
     MaterialRecord material = MaterialRef(scene.materials).v[s.material];
     MaterialInputs inputs = evaluateInputs(scene, point, material, material.stepCount);
     s.opacity = presenceOf(material.flags, inputs);
+    setSurroundings(s, scene, material, interiors);
 
     s.ns = interpolatedNormal(point, s.ng);
     if (inputs.stEdges != vec4(0.0)) s.ns = applyNormalMap(s.ns, inputs.normal, e1, e2, inputs.stEdges);
@@ -83,4 +109,6 @@ Surface evaluateSurface(SceneRecord scene, Hit hit, Ray ray) {
     setLobes(s, inputs, material.flags, dot(s.ns, wo));
     return s;
 }
+
+Surface evaluateSurface(SceneRecord scene, Hit hit, Ray ray) { return evaluateSurface(scene, hit, ray, uvec2(0u)); }
 #endif

@@ -93,7 +93,7 @@ struct MaterialRecord {
     uint stepCount;
     uint presenceSteps;      // the first of them, which opacity needs
     uint flags;              // MATERIAL_*
-    uint pad;
+    int priority;            // of its inside where objects overlap: see shaders/material/nesting.glsl
 };
 
 HIPR_CONST uint TEXEL_RGBA8_SRGB = 0u;      // colour sRGB-encoded, alpha linear

@@ -41,6 +41,8 @@ struct PrimvarRecord {
 
 HIPR_CONST uint INSTANCE_NON_OPAQUE = 1u; // some slot's material may let rays through without refraction
 HIPR_CONST uint INSTANCE_MIRRORED = 2u;   // object-to-world flips handedness
+HIPR_CONST uint INSTANCE_CULL_BACK = 4u;  // the camera does not see back faces; light does
+HIPR_CONST uint INSTANCE_CULL_FRONT = 8u; // nor front faces
 
 // One placement of one object: a leaf of the top-level acceleration structure.
 struct InstanceRecord {
@@ -129,9 +131,12 @@ HIPR_CONST uint SCENE_HAS_GRAPHS = 32u;         // some material's program has o
 HIPR_CONST uint SCENE_HAS_VOLUMES = 64u;
 HIPR_CONST uint SCENE_HAS_MOTION = 128u;        // some object moves or deforms while the shutter is open
 HIPR_CONST uint FILM_SORTS_LIGHT = 256u;        // the film has light path expressions
+HIPR_CONST uint SCENE_HAS_CULLING = 512u;       // some instance has INSTANCE_CULL_*
+HIPR_CONST uint SCENE_HAS_NESTING = 1024u;      // some refractive material has a MaterialRecord::priority other than 0
 // Those that kernels which shade are specialised by: what the scene does not have is not in their code.
 HIPR_CONST uint SCENE_SHADING_FEATURES =
-    SCENE_HAS_MESH_LIGHTS | SCENE_HAS_OPENPBR | SCENE_HAS_GRAPHS | SCENE_HAS_MOTION | FILM_SORTS_LIGHT;
+    SCENE_HAS_MESH_LIGHTS | SCENE_HAS_OPENPBR | SCENE_HAS_GRAPHS | SCENE_HAS_MOTION | FILM_SORTS_LIGHT |
+    SCENE_HAS_CULLING | SCENE_HAS_NESTING;
 
 HIPR_SHARED_END
 #endif

@@ -77,6 +77,7 @@ struct PathState {
     uint mediumColor;        // colour of a subsurface medium where the path entered it: packMediumColor() in medium.glsl
     uint categories;         // InstanceRecord::categories of the surface that scattered it last
     uint lightNormal;        // of that surface, where light reaches one side alone: see shaders/light/tree.glsl
+    uvec2 interiors;         // what the path is inside of: see shaders/material/nesting.glsl
 };
 
 // What a shadow ray carries.

@@ -45,6 +45,7 @@ struct Path {
     uint mediumColor;
     uint categories;
     uint lightNormal;
+    uvec2 interiors; // with SCENE_HAS_NESTING
 };
 
 Path loadPath(TraceRecord trace, uint slot) {
@@ -52,7 +53,8 @@ Path loadPath(TraceRecord trace, uint slot) {
     const uint pixel = paths.v[slot].pixel;
     return Path(slot, paths.v[slot].throughput, paths.v[slot].bsdfPdf, paths.v[slot].event, paths.v[slot].depth,
                 uvec2(pixel & 0xffffu, pixel >> 16), paths.v[slot].sampleIndex, paths.v[slot].history,
-                paths.v[slot].medium, paths.v[slot].mediumColor, paths.v[slot].categories, paths.v[slot].lightNormal);
+                paths.v[slot].medium, paths.v[slot].mediumColor, paths.v[slot].categories, paths.v[slot].lightNormal,
+                sceneHas(SCENE_HAS_NESTING) ? paths.v[slot].interiors : uvec2(0u));
 }
 
 void storePath(TraceRecord trace, Path path) {
@@ -66,6 +68,7 @@ void storePath(TraceRecord trace, Path path) {
     paths.v[path.slot].mediumColor = path.mediumColor;
     paths.v[path.slot].categories = path.categories;
     paths.v[path.slot].lightNormal = path.lightNormal;
+    if (sceneHas(SCENE_HAS_NESTING)) paths.v[path.slot].interiors = path.interiors;
 }
 
 vec4 randomVector(TraceRecord trace, Path path, uint which) {

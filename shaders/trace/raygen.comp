@@ -38,6 +38,7 @@ void main() {
     path.mediumColor = 0u;
     path.categories = 0u;
     path.lightNormal = 0u;
+    path.interiors = uvec2(0u);
 
     const vec4 u = sobol4(pixel, path.sampleIndex, 0u, trace.seed);
     const vec2 film = vec2(pixel) + 0.5 + sampleFilter(trace.pixelFilter, trace.filterWidth, u.xy);

@@ -21,7 +21,7 @@ vec3 offsetTowards(Surface surface, vec3 direction) {
 bool goesFree(Path path, Surface surface, vec3 wi) {
     if (!surface.openPbr || surface.thinWalled || dot(wi, surface.ng) >= 0.0)
         return (path.medium & MEDIUM_KIND) == MEDIUM_NONE;
-    return surface.inside;
+    return surface.inside && surface.around == NO_INDEX;
 }
 
 // Whether a surface is the way out of the medium below it that a path is in: the walk there was one event.
@@ -63,9 +63,19 @@ void enterMedium(inout Path path, Surface surface, uint lobe, vec3 wi) {
     if (!surface.openPbr || surface.thinWalled || dot(wi, surface.ng) >= 0.0) return;
     const bool below = lobe == LOBE_SUBSURFACE;
     if (below) path.mediumColor = packMediumColor(surface.subsurfaceColor);
-    const uint kind = below ? MEDIUM_SUBSURFACE : (surface.inside ? MEDIUM_NONE : MEDIUM_INTERIOR);
+    const uint entered = surface.inside && !below ? surface.around : surface.material;
     path.medium &= MEDIUM_DISPERSED;
-    if (kind != MEDIUM_NONE) path.medium |= surface.material << MEDIUM_SHIFT | kind;
+    if (entered != NO_INDEX) path.medium |= entered << MEDIUM_SHIFT | (below ? MEDIUM_SUBSURFACE : MEDIUM_INTERIOR);
+    if (sceneHas(SCENE_HAS_NESTING) && !below && surface.glass > 0.0)
+        path.interiors = crossedInteriors(path.interiors, surface.material, surface.frontFacing);
+}
+
+// Lets a path go straight on behind a surface. False: it ends here.
+bool passSurface(inout Path path, inout Ray ray, Hit hit) {
+    if (path.event - path.depth >= PATH_PASS_LIMIT) return false;
+    ++path.event;
+    ray.tMin = passedDistance(hit.t);
+    return true;
 }
 
 // Samples the next direction. False: the path ends here.
@@ -131,7 +141,8 @@ void disperse(TraceRecord trace, SceneRecord scene, inout Path path, inout Surfa
     vec3 color;
     const float u = sobol4(path.pixel, path.sampleIndex, RANDOM_WAVELENGTH, trace.seed).x;
     const float wavelength = sampleWavelength(u, color);
-    const float index = usableIor(dispersedIndex(surface.inside ? 1.0 / surface.eta : surface.eta, abbe, wavelength));
+    const float around = surface.aroundIor, mean = around * (surface.inside ? 1.0 / surface.eta : surface.eta);
+    const float index = usableIor(dispersedIndex(mean, abbe, wavelength) / around);
     surface.eta = surface.inside ? 1.0 / index : index;
     if ((path.medium & MEDIUM_DISPERSED) == 0u) path.throughput *= color;
     path.medium |= MEDIUM_DISPERSED;
@@ -149,15 +160,16 @@ void addEmission(TraceRecord trace, SceneRecord scene, Path path, Ray ray, Hit h
 
 // What a surface does with a path. False: the path ends here.
 bool scatter(TraceRecord trace, SceneRecord scene, inout Path path, inout Ray ray, Hit hit) {
-    Surface surface = evaluateSurface(scene, hit, ray);
+    Surface surface = evaluateSurface(scene, hit, ray, path.interiors);
+    const InstanceRecord instance = InstanceRef(scene.instances).v[hit.instance];
+    if (path.depth == 0u && culls(instance.flags, surface.frontFacing)) return passSurface(path, ray, hit);
+    if (sceneHas(SCENE_HAS_NESTING) && surface.hidden) {
+        path.interiors = crossedInteriors(path.interiors, surface.material, surface.frontFacing);
+        return passSurface(path, ray, hit);
+    }
     if (leavesSubsurface(path, surface)) setSubsurfaceExit(surface);
     const vec4 u = randomVector(trace, path, RANDOM_LIGHT);
-    if (u.w >= surface.opacity) {
-        if (path.event - path.depth >= PATH_PASS_LIMIT) return false;
-        ++path.event;
-        ray.tMin = passedDistance(hit.t);
-        return true;
-    }
+    if (u.w >= surface.opacity) return passSurface(path, ray, hit);
     if (path.depth == 0u) {
         PathRef(trace.paths).v[path.slot].alpha = 1.0;
         PathRef(trace.paths).v[path.slot].albedo = surface.albedo;
@@ -167,7 +179,7 @@ bool scatter(TraceRecord trace, SceneRecord scene, inout Path path, inout Ray ra
     addEmission(trace, scene, path, ray, hit, surface.emission);
     if (path.depth >= trace.maxDepth) return false;
     disperse(trace, scene, path, surface);
-    path.categories = InstanceRef(scene.instances).v[hit.instance].categories;
+    path.categories = instance.categories;
     path.lightNormal = surface.openPbr || surface.glass > 0.0 ? 0u : packLightNormal(surface.ng);
     const vec3 wo = -ray.direction;
     sampleDirectLight(trace, scene, path, surface, wo, u, ray.time);

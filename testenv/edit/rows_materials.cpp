@@ -146,6 +146,7 @@ Rows openPbrRows() {
     const Edit bind = in(geo + "Smooth", "rel material:binding = </World/Looks/Layered>");
     Rows rows;
     for (const OpenPbrInputInfo& info : openPbrInputs()) {
+        if (&info == &openPbrInputs()[size_t(OpenPbrInput::DielectricPriority)]) continue; // needs two objects
         const bool shows = info.use == InputUse::Full || info.use == InputUse::Constant;
         const bool sheet = &info == &openPbrInputs()[size_t(OpenPbrInput::SubsurfaceScatterAnisotropy)];
         const Edit before = sheet ? all({bind, in(surface, "bool inputs:geometry_thin_walled = 1")}) : bind;

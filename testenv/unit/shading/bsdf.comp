@@ -35,6 +35,8 @@ Surface makeSurface(SurfaceParameters p, vec3 wo) {
     s.ng = p.ng;
     s.ns = bendNormal(p.ns, p.ng, wo);
     s.tangent = frameAround(s.ns)[0];
+    s.around = NO_INDEX;
+    s.aroundIor = 1.0;
     s.albedoTable = p.albedoTable;
     s.openPbrTable = p.openPbrTable;
     setLobes(s, constantInputs(p.constants, (p.flags & MATERIAL_OPENPBR) != 0u), p.flags, dot(s.ns, wo));
