@@ -17,7 +17,7 @@ namespace {
 
 /// Lens, exposure and shutter only where the host says which camera it looks through; a free camera may have
 /// clip planes.
-hipr::CameraDesc cameraOf(HdRenderPassState const& state, GfMatrix4d const& crop) {
+hipr::CameraDesc cameraOf(HdRenderPassState& state, GfMatrix4d const& crop) { // not const: 20.08
     hipr::CameraDesc desc;
     desc.worldToView = toGlm(state.GetWorldToViewMatrix());
     desc.projection = toGlm(state.GetProjectionMatrix() * crop);

@@ -70,6 +70,8 @@ constexpr std::array<OpenPbrInput, gpu::INPUT_COUNT> OpenPbrRows = {
     OpenPbrInput::ThinFilmThickness,
     OpenPbrInput::ThinFilmIor,
     OpenPbrInput::Count,
+    OpenPbrInput::SubsurfaceRadius,
+    OpenPbrInput::SubsurfaceRadiusScale,
 };
 
 /// The constant of an input within its range. NaN and infinity become the specification's default.
@@ -159,7 +161,7 @@ uint32_t materialFlags(const ResolvedMaterial& m, const TextureStore& textures) 
     if (m.thinWalled) flags |= gpu::MATERIAL_THIN_WALLED;
     if (!m.thinWalled && mayExceed(m.inputs[gpu::INPUT_TRANSMISSION_WEIGHT], 0.f))
         flags |= gpu::MATERIAL_REFRACTIVE;
-    if (m.subsurface.extinction != glm::vec3(0.f)) flags |= gpu::MATERIAL_SUBSURFACE;
+    if (m.subsurfaceTravels) flags |= gpu::MATERIAL_SUBSURFACE;
     return flags;
 }
 
@@ -255,9 +257,13 @@ struct Resolver {
         ResolvedInput& color = out.inputs[gpu::INPUT_TRANSMISSION_COLOR];
         out.interior.dispersion = abbeNumber(constant(OpenPbrInput::TransmissionDispersionScale).x,
                                              constant(OpenPbrInput::TransmissionDispersionAbbeNumber).x);
-        out.subsurface = subsurfaceMedium(constant(OpenPbrInput::SubsurfaceRadius).x,
-                                          glm::vec3(constant(OpenPbrInput::SubsurfaceRadiusScale)),
+        const ResolvedInput &radius = out.inputs[gpu::INPUT_SUBSURFACE_RADIUS],
+                            &scale = out.inputs[gpu::INPUT_SUBSURFACE_RADIUS_SCALE];
+        const bool driven = radius.kind != Source::Constant || scale.kind != Source::Constant;
+        out.subsurface = subsurfaceMedium(driven ? 1.f : radius.constant.x, glm::vec3(scale.constant),
                                           out.inputs[gpu::INPUT_SUBSURFACE_ANISOTROPY].constant.x);
+        if (driven) out.subsurface.extinction = glm::vec3(0.f); // comes with the path
+        out.subsurfaceTravels = mayExceed(radius, 0.f);
         if (depth <= 0.f) return;
         setTransmissionMedium(out.interior, glm::vec3(color.constant), depth,
                               glm::vec3(constant(OpenPbrInput::TransmissionScatter)),

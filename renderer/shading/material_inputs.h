@@ -38,6 +38,7 @@ struct ResolvedMaterial {
     bool specularWorkflow = false;
     bool thinWalled = false;
     int priority = 0; ///< of what it is inside
+    bool subsurfaceTravels = false;
     gpu::MediumRecord interior{}, subsurface{};
     OpacityMode opacityMode = OpacityMode::Transparent;
 };

@@ -28,6 +28,8 @@ struct MaterialInputs {
     float subsurfaceWeight;
     vec3 subsurfaceColor;
     float subsurfaceAnisotropy;
+    float subsurfaceRadius;
+    vec3 subsurfaceRadiusScale;
     float fuzzWeight;
     vec3 fuzzColor;
     float fuzzRoughness;
@@ -72,6 +74,8 @@ MaterialInputs constantInputs(uint64_t row, bool openPbr) {
     inputs.subsurfaceWeight = constants.v[INPUT_SUBSURFACE_WEIGHT].x;
     inputs.subsurfaceColor = constants.v[INPUT_SUBSURFACE_COLOR].rgb;
     inputs.subsurfaceAnisotropy = constants.v[INPUT_SUBSURFACE_ANISOTROPY].x;
+    inputs.subsurfaceRadius = constants.v[INPUT_SUBSURFACE_RADIUS].x;
+    inputs.subsurfaceRadiusScale = constants.v[INPUT_SUBSURFACE_RADIUS_SCALE].rgb;
     inputs.fuzzWeight = constants.v[INPUT_FUZZ_WEIGHT].x;
     inputs.fuzzColor = constants.v[INPUT_FUZZ_COLOR].rgb;
     inputs.fuzzRoughness = constants.v[INPUT_FUZZ_ROUGHNESS].x;
@@ -108,6 +112,8 @@ void setInput(inout MaterialInputs inputs, uint target, vec4 value) {
     case INPUT_SUBSURFACE_WEIGHT: inputs.subsurfaceWeight = value.x; break;
     case INPUT_SUBSURFACE_COLOR: inputs.subsurfaceColor = value.rgb; break;
     case INPUT_SUBSURFACE_ANISOTROPY: inputs.subsurfaceAnisotropy = value.x; break;
+    case INPUT_SUBSURFACE_RADIUS: inputs.subsurfaceRadius = value.x; break;
+    case INPUT_SUBSURFACE_RADIUS_SCALE: inputs.subsurfaceRadiusScale = value.rgb; break;
     case INPUT_FUZZ_WEIGHT: inputs.fuzzWeight = value.x; break;
     case INPUT_FUZZ_COLOR: inputs.fuzzColor = value.rgb; break;
     case INPUT_FUZZ_ROUGHNESS: inputs.fuzzRoughness = value.x; break;

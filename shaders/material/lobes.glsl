@@ -40,6 +40,7 @@ struct Surface {
     vec3 scatterDown;   // through the surface
     float subsurface;   // weight of light that enters the medium below
     vec3 subsurfaceColor;
+    vec3 subsurfaceRadius; // how far light goes in that medium
     float coat;         // weight of the clear coat
     float coatEta;
     float coatRoughness;

@@ -13,6 +13,19 @@ vec3 unpackMediumColor(uint color) {
     return vec3(color & 1023u, color >> 10 & 1023u, color >> 20 & 1023u) / 1023.0;
 }
 
+// Three numbers above 0 with 9 bits each and one exponent.
+uint packMediumRadius(vec3 radius) {
+    const float largest = clamp(max(radius.x, max(radius.y, radius.z)), 1e-6, 3e4);
+    const float exponent = floor(log2(largest)) + 1.0;
+    const uvec3 steps = uvec3(clamp(radius * exp2(9.0 - exponent) + 0.5, vec3(1.0), vec3(511.0)));
+    return steps.x | steps.y << 9 | steps.z << 18 | uint(exponent + 24.0) << 27;
+}
+
+vec3 unpackMediumRadius(uint radius) {
+    const vec3 steps = vec3(radius & 511u, radius >> 9 & 511u, radius >> 18 & 511u);
+    return steps * exp2(float(radius >> 27) - 24.0 - 9.0);
+}
+
 // The albedo of single scattering that makes a half-space reflect `color`: H. van de Hulst's approximation as the OpenPBR
 // specification inverts it ("Subsurface").
 vec3 scatteringAlbedo(vec3 color, float anisotropy) {

@@ -59,7 +59,8 @@ void setOpenPbrBase(inout Surface s, MaterialInputs inputs, uint flags) {
     s.diffuseWeight = opaque * (1.0 - subsurface) * weight;
     s.diffuseRoughness = clamp(inputs.diffuseRoughness, 0.0, 1.0);
     s.subsurfaceColor = clamp(inputs.subsurfaceColor, 0.0, 1.0);
-    bool travels = (flags & MATERIAL_SUBSURFACE) != 0u;
+    s.subsurfaceRadius = inputs.subsurfaceRadius * clamp(inputs.subsurfaceRadiusScale, 0.01, 1.0);
+    bool travels = (flags & MATERIAL_SUBSURFACE) != 0u && inputs.subsurfaceRadius > 0.0;
     s.subsurface = travels ? opaque * subsurface : 0.0;
     vec3 scattered = travels ? vec3(0.0) : opaque * subsurface * s.subsurfaceColor;
     float through = s.thinWalled ? 0.5 + 0.5 * clamp(inputs.subsurfaceAnisotropy, -1.0, 1.0) : 0.0;

@@ -39,9 +39,11 @@ HIPR_CONST uint INPUT_THIN_FILM_WEIGHT = 28u;
 HIPR_CONST uint INPUT_THIN_FILM_THICKNESS = 29u;
 HIPR_CONST uint INPUT_THIN_FILM_IOR = 30u;
 HIPR_CONST uint INPUT_TANGENT = 31u;                // no value: its node names the st that anisotropy follows
-HIPR_CONST uint INPUT_COUNT = 32u;
+HIPR_CONST uint INPUT_SUBSURFACE_RADIUS = 32u;
+HIPR_CONST uint INPUT_SUBSURFACE_RADIUS_SCALE = 33u;
+HIPR_CONST uint INPUT_COUNT = 34u;
 // Beside the row: set by programs alone.
-HIPR_CONST uint INPUT_WORLD_NORMAL = 32u;           // in the place of INPUT_NORMAL, in world space, on the front side
+HIPR_CONST uint INPUT_WORLD_NORMAL = 34u;           // in the place of INPUT_NORMAL, in world space, on the front side
 
 HIPR_CONST uint MATERIAL_SPECULAR_WORKFLOW = 1u;
 HIPR_CONST uint MATERIAL_PRESENCE = 2u;     // (1 - opacity) of light goes straight through the surface, unrefracted
@@ -86,7 +88,8 @@ struct MediumRecord {
 
 struct MaterialRecord {
     MediumRecord interior;   // OpenPBR: inside the object, entered by refraction
-    MediumRecord subsurface; // OpenPBR: inside the object, entered by diffuse transmission; albedo comes with the path
+    MediumRecord subsurface; // OpenPBR: inside the object, entered by diffuse transmission; albedo comes with the path,
+                             // extinction too where it is 0 here
     uint64_t constants;      // vec4[PREVIEW_INPUT_COUNT or INPUT_COUNT], then those of the program
     uint64_t nodes;          // InputNode[]
     uint64_t steps;          // GraphStep[stepCount]: the program that sets inputs (shaders/shared/graph.h)

@@ -75,6 +75,7 @@ struct PathState {
     uint history;            // how it scattered so far: HISTORY_* in hipr.h
     uint medium;             // MEDIUM_*
     uint mediumColor;        // colour of a subsurface medium where the path entered it: packMediumColor() in medium.glsl
+    uint mediumRadius;       // its radius there: packMediumRadius()
     uint categories;         // InstanceRecord::categories of the surface that scattered it last
     uint lightNormal;        // of that surface, where light reaches one side alone: see shaders/light/tree.glsl
     uvec2 interiors;         // what the path is inside of: see shaders/material/nesting.glsl

@@ -43,6 +43,7 @@ struct Path {
     uint history;
     uint medium;
     uint mediumColor;
+    uint mediumRadius;
     uint categories;
     uint lightNormal;
     uvec2 interiors; // with SCENE_HAS_NESTING
@@ -53,7 +54,8 @@ Path loadPath(TraceRecord trace, uint slot) {
     const uint pixel = paths.v[slot].pixel;
     return Path(slot, paths.v[slot].throughput, paths.v[slot].bsdfPdf, paths.v[slot].event, paths.v[slot].depth,
                 uvec2(pixel & 0xffffu, pixel >> 16), paths.v[slot].sampleIndex, paths.v[slot].history,
-                paths.v[slot].medium, paths.v[slot].mediumColor, paths.v[slot].categories, paths.v[slot].lightNormal,
+                paths.v[slot].medium, paths.v[slot].mediumColor, paths.v[slot].mediumRadius,
+                paths.v[slot].categories, paths.v[slot].lightNormal,
                 sceneHas(SCENE_HAS_NESTING) ? paths.v[slot].interiors : uvec2(0u));
 }
 
@@ -66,6 +68,7 @@ void storePath(TraceRecord trace, Path path) {
     paths.v[path.slot].history = path.history;
     paths.v[path.slot].medium = path.medium;
     paths.v[path.slot].mediumColor = path.mediumColor;
+    paths.v[path.slot].mediumRadius = path.mediumRadius;
     paths.v[path.slot].categories = path.categories;
     paths.v[path.slot].lightNormal = path.lightNormal;
     if (sceneHas(SCENE_HAS_NESTING)) paths.v[path.slot].interiors = path.interiors;
@@ -100,6 +103,7 @@ MediumRecord mediumOf(SceneRecord scene, Path path) {
     if (kind == MEDIUM_INTERIOR) medium = MaterialRef(scene.materials).v[material].interior;
     if (kind == MEDIUM_SUBSURFACE) {
         medium = MaterialRef(scene.materials).v[material].subsurface;
+        if (medium.extinction == vec3(0.0)) medium.extinction = 1.0 / unpackMediumRadius(path.mediumRadius);
         medium.albedo = scatteringAlbedo(unpackMediumColor(path.mediumColor), medium.anisotropy);
     }
     return medium;

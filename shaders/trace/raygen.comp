@@ -36,6 +36,7 @@ void main() {
     path.history = 0u;
     path.medium = MEDIUM_NONE;
     path.mediumColor = 0u;
+    path.mediumRadius = 0u;
     path.categories = 0u;
     path.lightNormal = 0u;
     path.interiors = uvec2(0u);

@@ -62,7 +62,10 @@ uint scatterKind(Surface surface, uint lobe, vec3 wi) {
 void enterMedium(inout Path path, Surface surface, uint lobe, vec3 wi) {
     if (!surface.openPbr || surface.thinWalled || dot(wi, surface.ng) >= 0.0) return;
     const bool below = lobe == LOBE_SUBSURFACE;
-    if (below) path.mediumColor = packMediumColor(surface.subsurfaceColor);
+    if (below) {
+        path.mediumColor = packMediumColor(surface.subsurfaceColor);
+        path.mediumRadius = packMediumRadius(surface.subsurfaceRadius);
+    }
     const uint entered = surface.inside && !below ? surface.around : surface.material;
     path.medium &= MEDIUM_DISPERSED;
     if (entered != NO_INDEX) path.medium |= entered << MEDIUM_SHIFT | (below ? MEDIUM_SUBSURFACE : MEDIUM_INTERIOR);

@@ -97,3 +97,25 @@ TEST(OpenPbrPicture, SubsurfaceHasTheColourAskedFor) {
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(seen[c], color[c], 0.03f) << "channel " << c;
 }
+
+/// A primvar gives the same medium as a constant, and a dense one is another.
+TEST(OpenPbrPicture, SubsurfaceRadiusMayVary) {
+    const auto material = [](float radius) {
+        return openPbr({{In::SubsurfaceWeight, grey(1)},
+                        {In::SpecularWeight, grey(0)},
+                        {In::SubsurfaceColor, grey(0.7f)},
+                        {In::SubsurfaceRadius, grey(radius)},
+                        {In::SubsurfaceRadiusScale, grey(1)}});
+    };
+    MaterialDesc driven = material(0.02f);
+    MaterialInput& radius = driven.openPbr[In::SubsurfaceRadius];
+    radius.source = MaterialInput::Source::Primvar;
+    radius.primvar = "radius"; // which the ball has not: the constant
+    MaterialDesc scaled = material(1.f);
+    scaled.openPbr[In::SubsurfaceRadiusScale].source = MaterialInput::Source::Primvar;
+    scaled.openPbr[In::SubsurfaceRadiusScale].primvar = "scale";
+    const float dense = mean(ball(material(0.02f), 64)).y, thin = mean(ball(material(1.f), 64)).y;
+    EXPECT_GT(std::abs(dense - thin), 0.05f);
+    EXPECT_NEAR(mean(ball(driven, 64)).y, dense, 0.01f);
+    EXPECT_NEAR(mean(ball(scaled, 64)).y, thin, 0.01f);
+}
