@@ -27,10 +27,12 @@ struct ProductGroup {
     std::string conformPolicy;
     GfVec4f dataWindow = {0, 0, 1, 1};
     float pixelAspect = 1;
+    bool motionBlur = true;
     std::vector<ProductFile> files;
     bool sameView(const ProductGroup& o) const {
         return camera == o.camera && width == o.width && height == o.height &&
-               conformPolicy == o.conformPolicy && dataWindow == o.dataWindow && pixelAspect == o.pixelAspect;
+               conformPolicy == o.conformPolicy && dataWindow == o.dataWindow &&
+               pixelAspect == o.pixelAspect && motionBlur == o.motionBlur;
     }
 };
 
@@ -51,6 +53,14 @@ SdfPathVector targetsOf(const UsdRelationship& relationship) {
 /// A product says what its settings do not say already.
 UsdAttribute stronger(const UsdAttribute& ofProduct, const UsdAttribute& ofSettings) {
     return ofProduct && ofProduct.HasAuthoredValue() ? ofProduct : ofSettings;
+}
+
+/// A switch that some version of the schema has.
+bool isOn(const char* name, const UsdRenderSettingsBase& product, const UsdRenderSettings& settings) {
+    const TfToken attribute(name);
+    bool on = false;
+    stronger(product.GetPrim().GetAttribute(attribute), settings.GetPrim().GetAttribute(attribute)).Get(&on);
+    return on;
 }
 
 /// The AOV that a RenderVar means. RenderMan's name of the picture is understood as well.
@@ -113,6 +123,11 @@ ProductGroup Reader::view(const UsdRenderSettingsBase& product) const {
         printWarning(path + ": pixelAspectRatio is no positive number; pixels are square");
         group.pixelAspect = 1;
     }
+    group.motionBlur = !isOn("disableMotionBlur", product, _settings) && // before 23.05 by another name
+                       !isOn("instantaneousShutter", product, _settings);
+    if (isOn("disableDepthOfField", product, _settings))
+        printWarning(path +
+                     ": disableDepthOfField is not followed; an fStop of 0 has all of the picture sharp");
     return group;
 }
 
@@ -204,6 +219,7 @@ void look(Options& options, const ProductGroup& view) {
     if (!options.crop && view.dataWindow != GfVec4f(0, 0, 1, 1)) options.crop = view.dataWindow;
     options.conformPolicy = view.conformPolicy;
     options.pixelAspect = view.pixelAspect;
+    if (!view.motionBlur) options.sceneSettings.emplace_back("enableMotionBlur", "0");
 }
 
 /// One recording writes these files.

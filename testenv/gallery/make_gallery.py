@@ -20,6 +20,24 @@ PACKAGES = ["pillow"]
 CELL, MARGIN, LABEL = 200, 6, 16
 
 
+LIGHT = """
+def DomeLight "Sky" {
+    float inputs:intensity = 0.5
+    float intensity = 0.5
+    color3f inputs:color = (0.7, 0.8, 1)
+    color3f color = (0.7, 0.8, 1)
+}
+def DistantLight "Sun" {
+    float inputs:intensity = 400
+    float intensity = 400
+    float inputs:angle = 4
+    float angle = 4
+    float3 xformOp:rotateXYZ = (-50, 35, 0)
+    uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]
+}
+"""
+
+
 class Pair:
     """A stage and the picture that came with it, if any did."""
 
@@ -51,30 +69,23 @@ def test_assets(assets):
         yield Pair(name, root / name / stage, root / name / "screenshots" / shot, size=2 * CELL)
 
 
-def lit(folder, name, stage, lines):
-    """A stage over another one, with a light and a camera where it has none."""
+def lit(folder, name, *stages):
+    """A stage over others, with lights."""
     path = folder / (name + ".usda")
-    path.write_text(f'#usda 1.0\n(\n    upAxis = "Y"\n    subLayers = [@{stage}@]\n)\n{lines}')
+    layers = ", ".join(f"@{stage}@" for stage in stages)
+    path.write_text(f'#usda 1.0\n(\n    upAxis = "Y"\n    subLayers = [{layers}]\n)\n{LIGHT}')
     return path
-
-
-DOME = 'def DomeLight "Sky" {\n    float inputs:intensity = 0.6\n    float intensity = 0.6\n}\n'
-SUN = ('def DistantLight "Sun" {\n    float inputs:intensity = 4\n    float intensity = 4\n    float angle = 4\n    float inputs:angle = 4\n'
-       '    float3 xformOp:rotateXYZ = (-50, 35, 0)\n    uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]\n}\n')
 
 
 def full_assets(assets, folder):
     full = assets / "full_assets"
     car = next(full.glob("Vehicles/**/vehicleVariants.usda"))
     scenes = assets / "intent-vfx" / "scenes"
-    field = folder / "field.usda"
-    layers = ", ".join(f"@{scenes / name}.usd@" for name in (
-        "teapotScene_camera", "teapotScene_layoutOverrides", "teapotScene_layout"))
-    field.write_text(f'#usda 1.0\n(\n    upAxis = "Y"\n    subLayers = [{layers}]\n)\n{DOME}{SUN}')
-    yield Pair("Teapot", lit(folder, "teapot", full / "Teapot" / "Teapot.usd", DOME + SUN), size=2 * CELL)
-    yield Pair("DrawModes", lit(folder, "modes", full / "Teapot" / "DrawModes.usd", DOME + SUN), size=2 * CELL)
-    yield Pair("vehicleVariants", lit(folder, "car", car, DOME + SUN), size=2 * CELL)
-    yield Pair("chess_set", lit(folder, "chess", full / "OpenChessSet" / "chess_set.usda", DOME + SUN), size=2 * CELL)
+    field = lit(folder, "field", *(scenes / f"teapotScene_{name}.usd" for name in ("camera", "layoutOverrides", "layout")))
+    yield Pair("Teapot", lit(folder, "teapot", full / "Teapot" / "Teapot.usd"), size=2 * CELL)
+    yield Pair("DrawModes", lit(folder, "modes", full / "Teapot" / "DrawModes.usd"), size=2 * CELL)
+    yield Pair("vehicleVariants", lit(folder, "car", car), size=2 * CELL)
+    yield Pair("chess_set", lit(folder, "chess", full / "OpenChessSet" / "chess_set.usda"), size=2 * CELL)
     yield Pair("teapot field", field, assets / "intent-vfx" / "images" / "render_karma.png", size=2 * CELL)
 
 
