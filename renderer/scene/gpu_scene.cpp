@@ -205,6 +205,7 @@ bool GpuScene::setOptions(const SceneOptions& options) {
                 _lights.remove(id);
         }
     _options = options;
+    _textures.setLimit(options.textureBytes);
     _displacement.setEnabled(options.materials);
     ChangedSet unused; // a setting changed, with all that follows
     _displacement.update(_geometries, _objects, unused);

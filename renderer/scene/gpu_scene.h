@@ -18,9 +18,11 @@ namespace hipr {
 /// Settings that change what is in the scene.
 struct SceneOptions {
     bool lights = true, materials = true, domeVisibleToCamera = true, motionBlur = true;
+    uint64_t textureBytes = 0; ///< see TextureStore::setLimit()
     bool operator==(const SceneOptions& o) const {
         return lights == o.lights && materials == o.materials &&
-               domeVisibleToCamera == o.domeVisibleToCamera && motionBlur == o.motionBlur;
+               domeVisibleToCamera == o.domeVisibleToCamera && motionBlur == o.motionBlur &&
+               textureBytes == o.textureBytes;
     }
 };
 

@@ -7,6 +7,7 @@
 #include <glm/gtc/packing.hpp>
 #include <tbb/parallel_for.h>
 
+#include "renderer/shading/texels.h"
 #include "shaders/shared/material.h"
 
 namespace hipr {
@@ -67,7 +68,7 @@ glm::vec4 radiance(const Image& image, DomeFormat format, const glm::dvec3& d) {
 }
 
 void store(Image& image, size_t texel, const glm::vec4& value) {
-    unsigned char* out = &image.texels[texel * image.bytesPerTexel()];
+    unsigned char* out = &image.texels[texel * bytesPerTexel(image.format)];
     if (image.format == gpu::TEXEL_RGBA32F) {
         std::memcpy(out, &value, sizeof(value));
         return;
@@ -86,7 +87,7 @@ Image toLatLong(Image image, DomeFormat format) {
     out.width = 2 * out.height;
     out.format = image.format == gpu::TEXEL_RGBA32F ? gpu::TEXEL_RGBA32F : gpu::TEXEL_RGBA16F;
     out.opaque = image.opaque;
-    out.texels.resize(size_t(out.width) * out.height * out.bytesPerTexel());
+    out.texels.resize(size_t(out.width) * out.height * bytesPerTexel(out.format));
     tbb::parallel_for(0u, out.height, [&](uint32_t y) {
         const double latitude = Pi * ((y + 0.5) / out.height - 0.5);
         for (uint32_t x = 0; x < out.width; ++x) {

@@ -50,9 +50,9 @@ HostTexture::HostTexture(const TextureDesc& desc, const AssetReader& assets, con
         std::string path = desc.path;
         if (_udim) path.replace(at, Udim.size(), std::to_string(1001 + tile));
         try {
-            const std::vector<unsigned char> bytes = assets(path);
             Image image;
-            if (!bytes.empty() && decodeImage(bytes, path, desc.colorSpace, color, image, error))
+            const auto file = ImageFile::open(path, assets, error);
+            if (file && decodeImage(*file, desc.colorSpace, color, image, error))
                 _tiles.emplace(tile, std::move(image));
         } catch (const std::exception& failure) { // the host's reader
             error = failure.what();

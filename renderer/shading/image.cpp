@@ -4,9 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include <glm/gtc/packing.hpp>
-
-#include "renderer/shading/image_file.h"
+#include "renderer/shading/texels.h"
 #include "renderer/vulkan/result.h"
 #include "shaders/shared/material.h"
 
@@ -15,11 +13,7 @@ namespace hipr {
 namespace {
 
 constexpr float LargestHalf = 65504.f;
-
-/// IEC 61966-2-1.
-float decodeSrgb(float c) {
-    return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
-}
+constexpr uint32_t BandRows = 64; ///< read and decoded at a time
 
 /// Spreads `channels` values to four as image.h says.
 template <class T> void spread(const T* in, int channels, T one, T* out) {
@@ -29,110 +23,177 @@ template <class T> void spread(const T* in, int channels, T one, T* out) {
     out[3] = channels == 2 ? in[1] : (channels >= 4 ? in[3] : one);
 }
 
-/// Spreads all pixels and turns the rows over: files start at the top.
-template <class T> std::vector<T> spreadImage(const ImageFile& file, T one) {
-    std::vector<T> out(size_t(file.width) * file.height * 4);
-    const T* in = reinterpret_cast<const T*>(file.pixels.data());
-    for (uint32_t y = 0; y < file.height; ++y) {
-        const T* row = in + size_t(file.height - 1 - y) * file.width * size_t(file.channels);
-        for (uint32_t x = 0; x < file.width; ++x)
-            spread(row + size_t(x) * size_t(file.channels), file.channels, one,
-                   out.data() + (size_t(y) * file.width + x) * 4);
+/// Turns the pixels of a file into texels, band by band.
+class Decoder {
+public:
+    Decoder(ImageFile& file, const std::string& colorSpace, const ColorManager& color)
+        : format(texelFormat(file.header(), colorSpace, color)), _file(file), _colorSpace(colorSpace),
+          _color(color),
+          _transfer(color.transfer(colorSpace, file.header().eightBit, file.header().channels)) {}
+
+    const uint32_t format;
+    bool opaque = true;   ///< so far
+    bool halvesDo = true; ///< no value so far needs more
+
+    bool weighted() const { return _file.header().channels % 2 == 0 && _transfer != TexelTransfer::Linear; }
+
+    /// Hands all rows of a level to `take`, as texels, from the top.
+    template <class Take> bool rows(size_t level, std::string& error, Take take) {
+        const LevelSize size = _file.header().levels[level];
+        const size_t channels = size_t(_file.header().channels),
+                     rowBytes = size.width * bytesPerTexel(format);
+        _pixels.resize(size_t(BandRows) * size.width * channels *
+                       (_file.header().eightBit ? 1 : sizeof(float)));
+        _texels.resize(BandRows * rowBytes);
+        for (uint32_t y = 0; y < size.height; y += BandRows) {
+            const uint32_t count = std::min(BandRows, size.height - y);
+            if (!_file.read(level, y, count, _pixels.data(), error)) return false;
+            decode(size_t(count) * size.width);
+            for (uint32_t row = 0; row < count; ++row)
+                take(_texels.data() + row * rowBytes);
+        }
+        return true;
     }
-    return out;
-}
 
-/// Whether every pixel's alpha is at least `one`.
-template <class T> bool alphaIs(const std::vector<T>& values, T one) {
-    for (size_t i = 3; i < values.size(); i += 4)
-        if (!(values[i] >= one)) return false;
-    return true;
-}
+private:
+    void decode(size_t pixels);
+    void decodeBytes(size_t pixels);
+    void makeFinite(float& value);
 
-std::vector<float> toFloat(const std::vector<uint8_t>& values) {
-    std::vector<float> out(values.size());
-    std::transform(values.begin(), values.end(), out.begin(), [](uint8_t v) { return float(v) / 255.f; });
-    return out;
-}
+    ImageFile& _file;
+    const std::string& _colorSpace;
+    const ColorManager& _color;
+    TexelTransfer _transfer;
+    std::vector<unsigned char> _pixels, _texels;
+    std::vector<uint8_t> _bytes;
+    std::vector<glm::vec4> _values;
+};
 
-/// Stores linear floats as halves, or as floats when a value is too large for a half.
-void storeFloats(std::vector<float>& values, Image& image) {
-    bool fits = true;
-    for (float& v : values) {
-        if (std::isnan(v)) v = 0.f;
-        if (std::isinf(v)) v = std::copysign(LargestHalf, v);
-        fits = fits && std::abs(v) <= LargestHalf;
+/// To four channels of 8 bits.
+void Decoder::decodeBytes(size_t pixels) {
+    const int channels = _file.header().channels;
+    _bytes.resize(pixels * 4);
+    for (size_t i = 0; i < pixels; ++i) {
+        spread<uint8_t>(_pixels.data() + i * size_t(channels), channels, 255, _bytes.data() + i * 4);
+        opaque = opaque && _bytes[i * 4 + 3] == 255;
     }
-    if (!fits) {
-        image.format = gpu::TEXEL_RGBA32F;
-        image.texels.resize(values.size() * sizeof(float));
-        std::memcpy(image.texels.data(), values.data(), image.texels.size());
+}
+
+void Decoder::makeFinite(float& value) {
+    if (std::isnan(value)) value = 0.f;
+    if (std::isinf(value)) value = std::copysign(LargestHalf, value);
+    halvesDo = halvesDo && std::abs(value) <= LargestHalf;
+    if (format == gpu::TEXEL_RGBA16F) value = glm::clamp(value, -LargestHalf, LargestHalf);
+}
+
+void Decoder::decode(size_t pixels) {
+    const ImageHeader& header = _file.header();
+    if (header.eightBit) decodeBytes(pixels);
+    if (format == gpu::TEXEL_RGBA8 || format == gpu::TEXEL_RGBA8_SRGB) {
+        std::memcpy(_texels.data(), _bytes.data(), pixels * 4);
         return;
     }
-    image.format = gpu::TEXEL_RGBA16F;
-    image.texels.resize(values.size() * 2);
-    for (size_t i = 0; i < values.size(); ++i) {
-        const uint16_t half = glm::packHalf1x16(values[i]);
-        std::memcpy(image.texels.data() + i * 2, &half, 2);
+    _values.resize(pixels);
+    if (header.eightBit) {
+        decodeTexels(gpu::TEXEL_RGBA8, _bytes.data(), pixels, _values.data());
+    } else {
+        opaque = false; // not looked for
+        const float* in = reinterpret_cast<const float*>(_pixels.data());
+        for (size_t i = 0; i < pixels; ++i)
+            spread(in + i * size_t(header.channels), header.channels, 1.f, &_values[i].x);
     }
+    if (_transfer == TexelTransfer::Convert) _color.convert(_colorSpace, &_values[0].x, pixels);
+    for (size_t i = 0; i < pixels; ++i) {
+        glm::vec4& v = _values[i];
+        if (_transfer == TexelTransfer::Srgb)
+            v = glm::vec4(decodeSrgb(v.x), decodeSrgb(v.y), decodeSrgb(v.z), v.w);
+        for (int c = 0; c < 4; ++c)
+            makeFinite(v[c]);
+    }
+    encodeTexels(format, _values.data(), pixels, _texels.data());
+}
+
+/// Turns floats to halves.
+void narrow(Image& image) {
+    std::vector<unsigned char> halves(image.texels.size() / 2);
+    std::vector<glm::vec4> values(4096);
+    const size_t texels = image.texels.size() / bytesPerTexel(gpu::TEXEL_RGBA32F);
+    for (size_t i = 0; i < texels; i += values.size()) {
+        const size_t count = std::min(values.size(), texels - i);
+        decodeTexels(gpu::TEXEL_RGBA32F, image.texels.data() + i * 16, count, values.data());
+        encodeTexels(gpu::TEXEL_RGBA16F, values.data(), count, halves.data() + i * 8);
+    }
+    image.texels = std::move(halves);
+    image.format = gpu::TEXEL_RGBA16F;
+}
+
+void describe(const ImageFile& file, const Decoder& decoder, size_t finest, Image& image) {
+    const ImageHeader& header = file.header();
+    const LevelSize size = levelSizes(header.levels[0])[finest];
+    image.width = size.width;
+    image.height = size.height;
+    image.format = decoder.format;
+    image.wrapS = header.wrapS;
+    image.wrapT = header.wrapT;
+    image.opaque = decoder.opaque;
+    if (image.format == gpu::TEXEL_RGBA32F && decoder.halvesDo) narrow(image);
+}
+
+/// Copies rows that come from the top to a level that starts at the bottom.
+bool copyLevel(Decoder& decoder, size_t level, LevelSize size, unsigned char* texels, std::string& error) {
+    const size_t bytes = size.width * bytesPerTexel(decoder.format);
+    unsigned char* row = texels + size.height * bytes;
+    return decoder.rows(level, error, [&](const unsigned char* in) { std::memcpy(row -= bytes, in, bytes); });
 }
 
 } // namespace
 
-size_t Image::bytesPerTexel() const {
-    switch (format) {
-    case gpu::TEXEL_RGBA16F:
-        return 8;
-    case gpu::TEXEL_RGBA32F:
-        return 16;
-    default:
-        return 4;
-    }
-}
-
 glm::vec4 Image::texel(uint32_t x, uint32_t y) const {
-    const unsigned char* p = texels.data() + (size_t(y) * width + x) * bytesPerTexel();
-    glm::vec4 v;
-    if (format == gpu::TEXEL_RGBA32F) {
-        std::memcpy(&v, p, 16);
-    } else if (format == gpu::TEXEL_RGBA16F) {
-        uint64_t packed;
-        std::memcpy(&packed, p, 8);
-        v = glm::unpackHalf4x16(packed);
-    } else {
-        v = glm::vec4(p[0], p[1], p[2], p[3]) / 255.f;
-        if (format == gpu::TEXEL_RGBA8_SRGB)
-            v = glm::vec4(decodeSrgb(v.x), decodeSrgb(v.y), decodeSrgb(v.z), v.w);
-    }
-    return v;
+    glm::vec4 value;
+    decodeTexels(format, texels.data() + (size_t(y) * width + x) * bytesPerTexel(format), 1, &value);
+    return value;
 }
 
-bool decodeImage(const std::vector<unsigned char>& bytes, const std::string& path,
-                 const std::string& colorSpace, const ColorManager& color, Image& image, std::string& error) {
+uint32_t texelFormat(const ImageHeader& header, const std::string& colorSpace, const ColorManager& color) {
+    const TexelTransfer transfer = color.transfer(colorSpace, header.eightBit, header.channels);
+    if (header.eightBit && transfer != TexelTransfer::Convert)
+        return transfer == TexelTransfer::Srgb ? gpu::TEXEL_RGBA8_SRGB : gpu::TEXEL_RGBA8;
+    return header.large ? gpu::TEXEL_RGBA32F : gpu::TEXEL_RGBA16F;
+}
+
+bool decodeImage(ImageFile& file, const std::string& colorSpace, const ColorManager& color, Image& image,
+                 std::string& error) {
     try {
-        ImageFile file;
-        if (!readImageFile(bytes, path, file, error)) return false;
-        image.width = file.width;
-        image.height = file.height;
-        image.wrapS = file.wrapS;
-        image.wrapT = file.wrapT;
-        const TexelTransfer transfer = color.transfer(colorSpace, file.eightBit, file.channels);
-        std::vector<uint8_t> small;
-        if (file.eightBit) small = spreadImage<uint8_t>(file, 255);
-        if (file.eightBit) image.opaque = alphaIs(small, uint8_t(255));
-        if (file.eightBit && transfer != TexelTransfer::Convert) {
-            image.format = transfer == TexelTransfer::Srgb ? gpu::TEXEL_RGBA8_SRGB : gpu::TEXEL_RGBA8;
-            image.texels = std::move(small);
-        } else {
-            std::vector<float> values = file.eightBit ? toFloat(small) : spreadImage<float>(file, 1.f);
-            if (transfer == TexelTransfer::Convert)
-                color.convert(colorSpace, values.data(), values.size() / 4);
-            if (transfer == TexelTransfer::Srgb)
-                for (size_t i = 0; i < values.size(); ++i)
-                    if (i % 4 != 3) values[i] = decodeSrgb(values[i]);
-            storeFloats(values, image);
-        }
+        Decoder decoder(file, colorSpace, color);
+        const LevelSize size = file.header().levels[0];
+        image.texels.resize(levelBytes({size}, decoder.format));
+        if (!copyLevel(decoder, 0, size, image.texels.data(), error)) return false;
+        describe(file, decoder, 0, image);
     } catch (const std::exception& e) { // out of memory on a broken or huge file
+        error = reasonOf(e);
+        return false;
+    }
+    return true;
+}
+
+bool decodeLevels(ImageFile& file, const std::string& colorSpace, const ColorManager& color, size_t finest,
+                  Image& image, std::string& error) {
+    try {
+        Decoder decoder(file, colorSpace, color);
+        const std::vector<LevelSize>& stored = file.header().levels;
+        std::vector<LevelSize> kept = levelSizes(stored[0]);
+        kept.erase(kept.begin(), kept.begin() + ptrdiff_t(finest));
+        image.texels.resize(levelBytes(kept, decoder.format));
+        unsigned char* texels = image.texels.data();
+        for (size_t level = finest; level + 1 < stored.size(); ++level) {
+            if (!copyLevel(decoder, level, stored[level], texels, error)) return false;
+            texels += levelBytes({stored[level]}, decoder.format);
+        }
+        const size_t last = stored.size() - 1, first = finest > last ? finest - last : 0;
+        LevelBuilder builder(stored[last], decoder.format, decoder.weighted(), uint32_t(first), texels);
+        if (!decoder.rows(last, error, [&](const unsigned char* row) { builder.addRow(row); })) return false;
+        describe(file, decoder, finest, image);
+    } catch (const std::exception& e) {
         error = reasonOf(e);
         return false;
     }

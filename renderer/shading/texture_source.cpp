@@ -12,55 +12,6 @@ namespace hipr {
 namespace {
 
 constexpr size_t TilesPerRow = 10, MostTiles = 8999; // UDIM numbers 1001 to 9999
-constexpr size_t PicturesAtATime = 32; // bounds the memory that decoded pictures take before their upload
-
-struct Job {
-    TextureSource* source;
-    size_t tile;
-    Image image;
-    std::string error; ///< empty: a UDIM tile that does not exist, or no error
-    bool decoded = false;
-};
-
-void decode(Job& job, const AssetReader& assets, const ColorManager& color) {
-    const std::string path = job.source->tilePath(job.tile);
-    try {
-        const std::vector<unsigned char> bytes = assets(path);
-        if (!bytes.empty())
-            job.decoded = decodeImage(bytes, path, job.source->colorSpace, color, job.image, job.error);
-        else if (!job.source->udim())
-            job.error = "cannot be read";
-        job.image = toLatLong(std::move(job.image), job.source->format);
-    } catch (const std::exception& e) { // the host's reader
-        job.error = reasonOf(e);
-    }
-}
-
-void upload(Job& job, Device& device) {
-    TextureTile& tile = job.source->tiles[job.tile];
-    try {
-        tile.buffer = device.createFrom(job.image.texels.data(), job.image.texels.size(), "textures");
-    } catch (const std::bad_alloc&) {
-        job.error = "does not fit into the device's memory";
-        return;
-    }
-    tile.image = std::move(job.image);
-    if (!job.source->keepPixels) tile.image.texels = {};
-}
-
-void run(std::vector<Job>& jobs, Device& device, const AssetReader& assets, const ColorManager& color) {
-    for (size_t first = 0; first < jobs.size(); first += PicturesAtATime) {
-        const size_t end = std::min(first + PicturesAtATime, jobs.size());
-        tbb::parallel_for(first, end, [&](size_t i) { decode(jobs[i], assets, color); });
-        for (size_t i = first; i < end; ++i) {
-            Job& job = jobs[i];
-            if (job.decoded) upload(job, device);
-            if (!job.error.empty() && device.messages())
-                device.messages()(Severity::Warning, job.source->subject,
-                                  "texture " + job.source->tilePath(job.tile) + ": " + job.error);
-        }
-    }
-}
 
 /// Whether a UDIM set may have tiles beyond those looked for: sets have gaps, so a hundred absent numbers end
 /// it.
@@ -69,15 +20,21 @@ bool wantsMoreTiles(const TextureSource& source) {
     const size_t count = source.tiles.size();
     if (!source.udim() || count >= MostTiles) return false;
     return count < Gap || std::any_of(source.tiles.end() - Gap, source.tiles.end(),
-                                      [](const TextureTile& tile) { return tile.loaded(); });
+                                      [](const TextureTile& tile) { return tile.exists(); });
 }
 
 void dropAbsentTail(TextureSource& source) {
-    while (source.tiles.size() > 1 && !source.tiles.back().loaded())
+    while (source.tiles.size() > 1 && !source.tiles.back().exists())
         source.tiles.pop_back();
 }
 
 } // namespace
+
+uint64_t TextureTile::bytes(uint32_t first) const {
+    std::vector<LevelSize> sizes = levelSizes(header.levels[0]);
+    sizes.erase(sizes.begin(), sizes.begin() + first);
+    return levelBytes(sizes, format);
+}
 
 std::string TextureSource::tilePath(size_t tile) const {
     const size_t at = path.find("<UDIM>");
@@ -85,8 +42,42 @@ std::string TextureSource::tilePath(size_t tile) const {
     return path.substr(0, at) + std::to_string(1001 + tile) + path.substr(at + 6);
 }
 
-void loadTextureSources(const std::vector<TextureSource*>& sources, Device& device, const AssetReader& assets,
-                        const ColorManager& color) {
+struct TextureLoader::Job {
+    TextureSource* source;
+    size_t number; ///< of the tile
+    std::string error{};
+
+    TextureTile& tile() const { return source->tiles[number]; }
+};
+
+void TextureLoader::run(std::vector<Job>& jobs, void (TextureLoader::*work)(Job&) const) const {
+    const auto guarded = [&](Job& job) {
+        try {
+            (this->*work)(job);
+        } catch (const DeviceLost&) {
+            throw;
+        } catch (const std::exception& e) { // the host's reader
+            job.error = reasonOf(e);
+        }
+    };
+    tbb::parallel_for(size_t(0), jobs.size(), [&](size_t i) { guarded(jobs[i]); });
+    for (const Job& job : jobs)
+        if (!job.error.empty() && _device.messages())
+            _device.messages()(Severity::Warning, job.source->subject,
+                               "texture " + job.source->tilePath(job.number) + ": " + job.error);
+}
+
+void TextureLoader::examine(Job& job) const {
+    const auto file = ImageFile::open(job.source->tilePath(job.number), _assets, job.error);
+    if (file) {
+        job.tile().header = file->header();
+        job.tile().format = texelFormat(file->header(), job.source->colorSpace, _color);
+    } else if (job.error.empty() && !job.source->udim()) {
+        job.error = "cannot be read";
+    }
+}
+
+void TextureLoader::examine(const std::vector<TextureSource*>& sources) const {
     std::vector<TextureSource*> open = sources;
     while (!open.empty()) {
         std::vector<Job> jobs;
@@ -94,20 +85,56 @@ void loadTextureSources(const std::vector<TextureSource*>& sources, Device& devi
             const size_t first = source->tiles.size();
             source->tiles.resize(source->udim() ? std::min(first + TilesPerRow, MostTiles) : 1);
             for (size_t tile = first; tile < source->tiles.size(); ++tile)
-                jobs.push_back({source, tile, {}, {}, false});
+                jobs.push_back({source, tile});
         }
-        run(jobs, device, assets, color);
+        run(jobs, &TextureLoader::examine);
         open.erase(
             std::remove_if(open.begin(), open.end(), [](TextureSource* s) { return !wantsMoreTiles(*s); }),
             open.end());
     }
     for (TextureSource* source : sources) {
-        source->loaded = true;
+        source->examined = true;
         dropAbsentTail(*source);
-        if (source->udim() && !source->tiles[0].loaded() && source->tiles.size() == 1 && device.messages())
-            device.messages()(Severity::Warning, source->subject,
-                              "texture " + source->path + ": no tile from 1001 on can be read");
+        if (source->udim() && !source->tiles[0].exists() && source->tiles.size() == 1 && _device.messages())
+            _device.messages()(Severity::Warning, source->subject,
+                               "texture " + source->path + ": no tile from 1001 on can be read");
     }
+}
+
+void TextureLoader::decode(Job& job, ImageFile& file, Image& image) const {
+    const TextureSource& source = *job.source;
+    if (!source.ofLight)
+        decodeLevels(file, source.colorSpace, _color, job.tile().finest, image, job.error);
+    else if (decodeImage(file, source.colorSpace, _color, image, job.error))
+        image = toLatLong(std::move(image), source.format);
+}
+
+void TextureLoader::load(Job& job) const {
+    TextureTile& tile = job.tile();
+    tile.tried = true;
+    const auto file = ImageFile::open(job.source->tilePath(job.number), _assets, job.error);
+    if (!file && job.error.empty()) job.error = "cannot be read any more";
+    if (!file) return;
+    Image image;
+    decode(job, *file, image);
+    if (!job.error.empty()) return;
+    try {
+        tile.buffer = _device.createFrom(image.texels.data(), image.texels.size(), "textures");
+    } catch (const std::bad_alloc&) {
+        job.error = "does not fit into the device's memory";
+        return;
+    }
+    tile.image = std::move(image);
+    // Not {}, which keeps the capacity.
+    if (!job.source->keepPixels) tile.image.texels = std::vector<unsigned char>();
+}
+
+void TextureLoader::load(const std::vector<TextureSource*>& sources) const {
+    std::vector<Job> jobs;
+    for (TextureSource* source : sources)
+        for (size_t i = 0; i < source->tiles.size(); ++i)
+            if (source->tiles[i].exists() && !source->tiles[i].tried) jobs.push_back({source, i});
+    run(jobs, &TextureLoader::load);
 }
 
 } // namespace hipr

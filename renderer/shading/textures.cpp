@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "renderer/shading/texture_source.h"
+#include "renderer/shading/texture_limit.h"
 
 namespace hipr {
 
@@ -45,6 +45,26 @@ gpu::TextureRecord describeTile(const TextureTile& tile, const TextureRequest& r
     return record;
 }
 
+/// Adds the records of a tile's coarser levels to the table, and names them in that of the finest.
+void describeCoarser(std::vector<gpu::TextureRecord>& table, size_t finest) {
+    gpu::TextureRecord level = table[finest];
+    const std::vector<LevelSize> sizes = levelSizes({level.width, level.height});
+    table[finest].firstCoarser = uint32_t(table.size());
+    table[finest].coarserLevels = uint32_t(sizes.size() - 1);
+    if (level.wrapS == gpu::WRAP_BLACK) level.wrapS = gpu::WRAP_CUT;
+    if (level.wrapT == gpu::WRAP_BLACK) level.wrapT = gpu::WRAP_CUT;
+    for (size_t i = 1; i < sizes.size(); ++i) {
+        level.texels += levelBytes({sizes[i - 1]}, level.format);
+        level.width = sizes[i].width;
+        level.height = sizes[i].height;
+        table.push_back(level);
+    }
+}
+
+std::string megabytes(uint64_t bytes) {
+    return std::to_string((bytes + (1 << 20) - 1) >> 20) + " MiB";
+}
+
 } // namespace
 
 bool TextureRequest::operator<(const TextureRequest& o) const {
@@ -59,7 +79,8 @@ struct TextureStore::Impl {
         uint32_t users;
         TextureRange range;
     };
-    using SourceKey = std::tuple<std::string, std::string, DomeFormat>; ///< path, colour space, projection
+    /// Path, colour space, projection, whether a light shows it.
+    using SourceKey = std::tuple<std::string, std::string, DomeFormat, bool>;
 
     Impl(Device& device, AssetReader assets, std::shared_ptr<const ColorManager> color)
         : device(device), assets(std::move(assets)), color(std::move(color)) {}
@@ -73,26 +94,31 @@ struct TextureStore::Impl {
     uint32_t nextNumber = 0;
     uint32_t version = 0;
     bool changed = false; ///< since the last commit
+    uint64_t limit = 0;
+    TextureFit told; ///< of the last message
     Buffer records;
 
     TextureSource* source(const TextureRequest& request, const std::string& subject);
     void collectUnused();
     void load();
+    void fit(const std::vector<TextureSource*>& all);
     void rebuild();
 };
 
 TextureSource* TextureStore::Impl::source(const TextureRequest& request, const std::string& subject) {
-    auto& source = sources[{request.path, request.colorSpace, request.format}];
+    auto& source = sources[{request.path, request.colorSpace, request.format, request.keepPixels}];
     if (!source) {
         source = std::make_unique<TextureSource>();
         source->path = request.path;
         source->colorSpace = request.colorSpace;
         source->format = request.format;
+        source->ofLight = request.keepPixels;
         source->subject = subject;
     }
     if (request.keepPixels && !source->keepPixels) {
         source->keepPixels = true;
-        if (source->loaded) source->loaded = false, source->tiles.clear(); // pixels are gone: read it again
+        for (TextureTile& tile : source->tiles) // pixels are gone: read it again
+            tile.tried = false;
     }
     ++source->users;
     return source.get();
@@ -113,10 +139,36 @@ void TextureStore::Impl::collectUnused() {
 }
 
 void TextureStore::Impl::load() {
-    std::vector<TextureSource*> wanted;
-    for (auto& entry : sources)
-        if (!entry.second->loaded) wanted.push_back(entry.second.get());
-    loadTextureSources(wanted, device, assets, *color);
+    const TextureLoader loader(device, assets, *color);
+    std::vector<TextureSource*> all, unknown;
+    for (auto& entry : sources) {
+        all.push_back(entry.second.get());
+        if (!entry.second->examined) unknown.push_back(entry.second.get());
+    }
+    loader.examine(unknown);
+    fit(all);
+    loader.load(all);
+}
+
+/// Frees what no longer has the levels it should have before anything else is loaded.
+void TextureStore::Impl::fit(const std::vector<TextureSource*>& all) {
+    std::map<const TextureTile*, uint32_t> before;
+    for (const TextureSource* source : all)
+        for (const TextureTile& tile : source->tiles)
+            before[&tile] = tile.finest;
+    const TextureFit result = fitTextures(all, limit);
+    for (TextureSource* source : all)
+        for (TextureTile& tile : source->tiles)
+            if (tile.finest != before[&tile]) tile.buffer = {}, tile.tried = false;
+    const bool same = result.wanted == told.wanted && result.taken == told.taken;
+    if (result.reduced > 0 && !same && device.messages())
+        device.messages()(Severity::Warning, "",
+                          "textures take " + megabytes(result.wanted) + ", and hipr:textureMemory allows " +
+                              megabytes(limit) + ": " + std::to_string(result.reduced) + " of " +
+                              std::to_string(result.pictures) +
+                              " pictures are shown without their finest levels, which takes " +
+                              megabytes(result.taken));
+    told = result;
 }
 
 void TextureStore::Impl::rebuild() {
@@ -125,8 +177,11 @@ void TextureStore::Impl::rebuild() {
         Texture& texture = entry.second;
         const bool udim = texture.source->udim();
         texture.range = {uint32_t(table.size()), udim ? uint32_t(texture.source->tiles.size()) : 0u};
-        for (const TextureTile& tile : texture.source->tiles)
+        const std::vector<TextureTile>& tiles = texture.source->tiles;
+        for (const TextureTile& tile : tiles)
             table.push_back(describeTile(tile, texture.request, udim));
+        for (size_t i = 0; i < tiles.size() && !texture.source->ofLight; ++i)
+            if (tiles[i].loaded()) describeCoarser(table, texture.range.first + i);
     }
     records = device.createFrom(table.data(), table.size(), "textures");
     ++version;
@@ -135,6 +190,7 @@ void TextureStore::Impl::rebuild() {
 TextureStore::TextureStore(Device& device, AssetReader assets, std::shared_ptr<const ColorManager> color)
     : _impl(std::make_unique<Impl>(device, assets ? std::move(assets) : AssetReader(readFile),
                                    std::move(color))) {
+    setLimit(0);
     _impl->rebuild();
 }
 
@@ -156,6 +212,12 @@ uint32_t TextureStore::acquire(const TextureRequest& request, const std::string&
 void TextureStore::release(uint32_t texture) {
     Impl::Texture& entry = _impl->textures.at(texture);
     if (--entry.users == 0) _impl->changed = true;
+}
+
+void TextureStore::setLimit(uint64_t bytes) {
+    const uint64_t limit = bytes > 0 ? bytes : std::max<uint64_t>(_impl->device.info().memoryBytes / 2, 1);
+    _impl->changed = _impl->changed || limit != _impl->limit;
+    _impl->limit = limit;
 }
 
 bool TextureStore::commit() {
@@ -186,7 +248,7 @@ void TextureStore::releasePixels(uint32_t texture) {
     TextureSource& source = *_impl->textures.at(texture).source;
     source.keepPixels = false;
     for (TextureTile& tile : source.tiles)
-        tile.image.texels = {};
+        tile.image.texels = std::vector<unsigned char>();
 }
 
 uint32_t TextureStore::version() const {

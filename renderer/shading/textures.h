@@ -1,6 +1,6 @@
 /// @file textures.h
-/// Texture files as TextureRecords: loaded once per (path, colour space, projection, wrap modes), shared,
-/// freed when unused.
+/// Texture files as TextureRecords with levels of detail: loaded once per (path, colour space, projection,
+/// use), shared, freed when unused, within a limit of device memory.
 #pragma once
 
 #include <memory>
@@ -22,7 +22,8 @@ struct TextureRequest {
     std::string path; ///< may hold `<UDIM>`
     std::string colorSpace = "auto";
     WrapMode wrapS = WrapMode::UseMetadata, wrapT = WrapMode::UseMetadata;
-    bool keepPixels = false; ///< keep a host copy for TextureStore::image() until releasePixels()
+    bool keepPixels = false; ///< of a light: in full, without coarser levels, and with a host copy for
+                             ///< TextureStore::image() until releasePixels()
     DomeFormat format = DomeFormat::LatLong; ///< pictures in others are loaded as latitude-longitude ones
     bool operator<(const TextureRequest& o) const;
 };
@@ -49,6 +50,11 @@ public:
     uint32_t acquire(const TextureRequest& request, const std::string& subject);
     /// Gives up one acquire(). Texels go with the last one, at the next commit().
     void release(uint32_t texture);
+
+    /// How much device memory textures may take; 0, the default: half of the device's. When all take more,
+    /// those whose finest levels are largest go without (see fitTextures()), which is told once. From the
+    /// next commit() on.
+    void setLimit(uint64_t bytes);
 
     /// Loads what was acquired since the last commit, in parallel, frees what nobody uses, and uploads the
     /// record table if it changed. Each unreadable file gives one message and TEXEL_NONE records. Returns

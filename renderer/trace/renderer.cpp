@@ -194,6 +194,7 @@ bool RendererImpl::setup() {
     record.changeScale = _edits.changeScale();
     record.moving = _scene.moves();
     record.frameTime = float(_scene.shutter().frame());
+    record.filtersTextures = _settings.textureFiltering;
     _tracer.setup(record, _film.lightPaths(), *camera,
                   cameraKeys(*_scene.camera(), *camera, _scene.shutter()),
                   _scene.flags() | _film.shadingFeatures());

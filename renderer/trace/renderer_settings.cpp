@@ -108,7 +108,8 @@ ChangedSet RendererImpl::setSettings(const Settings& settings) {
         if (_film.keepHits(discovers)) findFirstHits(discovers);
         const std::string traversal = _traversalInUse;
         const bool options = _scene.setOptions({settings.enableSceneLights, settings.enableSceneMaterials,
-                                                settings.domeLightCameraVisibility, settings.motionBlur});
+                                                settings.domeLightCameraVisibility, settings.motionBlur,
+                                                uint64_t(settings.textureMemory) << 20});
         selectTraversal();
         if (options || traversal != _traversalInUse) _scene.commit();
         _setupPending = true;

@@ -117,7 +117,7 @@ void main() {
     surface.position = surface.ns = vec3(0.0);
     if (seen) {
         point = shadingPoint(scene, hit);
-        surface = evaluateSurface(scene, hit, ray);
+        surface = evaluateSurface(scene, hit, ray, NO_FOOTPRINT);
     }
     for (uint k = 0u; k < trace.aovCount; ++k) {
         const AovTarget target = AovTargetRef(trace.aovs).v[k];

@@ -17,8 +17,9 @@ vec4 selectChannel(vec4 value, uint channel) {
 
 vec2 transformSt(InputNode node, vec2 st) { return node.uvAxisU * st.x + node.uvAxisV * st.y + node.uvOffset; }
 
-// A UsdUVTexture: scale and bias apply to what the file holds, not to the fallback.
-vec4 sampleTextureNode(SceneRecord scene, InputNode node, vec2 st) {
+// A UsdUVTexture: scale and bias apply to what the file holds, not to the fallback. `area` is what the ray covers of the
+// texture, whose area is 1.
+vec4 sampleTextureNode(SceneRecord scene, InputNode node, vec2 st, float area, float levelShare) {
     uint record = node.texture;
     if (node.udimTiles > 0u) {
         vec2 tile = floor(st);
@@ -30,6 +31,8 @@ vec4 sampleTextureNode(SceneRecord scene, InputNode node, vec2 st) {
     }
     TextureRecord texture = TextureRef(scene.textures).v[record];
     if (texture.format == TEXEL_NONE) return node.fallback;
+    uint level = textureLevel(texture, area, levelShare);
+    if (level > 0u) texture = TextureRef(scene.textures).v[texture.firstCoarser + level - 1u];
     return sampleTexture(texture, st) * node.scale + node.bias;
 }
 
@@ -105,6 +108,7 @@ vec4 graphRead(inout GraphReader reader, uint op, uint immediate, vec4 a) {
     bool named = op == GRAPH_READ || op == GRAPH_TANGENT || op == GRAPH_BITANGENT, reads = op == GRAPH_READ;
     vec2 st = a.xy;
     vec4 value = vec4(0.0);
+    float area = 0.0; // nothing is known of how coordinates change that a program has computed
     if (named || op == GRAPH_TEXTURE) {
         node = InputNodeRef(reader.nodes).v[immediate];
         value = node.fallback;
@@ -120,9 +124,10 @@ vec4 graphRead(inout GraphReader reader, uint op, uint immediate, vec4 a) {
         vec4 primvar = interpolatePrimvar(reader.corners, reader.point.uv);
         if (reader.corners.found) value = primvar;
         st = reader.corners.found ? primvar.xy : node.uvFallback;
+        area = reader.point.footprint * abs(reader.edges.x * reader.edges.w - reader.edges.y * reader.edges.z);
     }
     if ((reads && node.texture != NO_INDEX) || op == GRAPH_TEXTURE)
-        value = sampleTextureNode(reader.scene, node, transformSt(node, st));
+        value = sampleTextureNode(reader.scene, node, transformSt(node, st), area, reader.point.levelShare);
     if (reads || op == GRAPH_TEXTURE) return selectChannel(value, node.channel);
     if (op == GRAPH_POSITION) {
         vec3 p = graphPosition(reader.point);

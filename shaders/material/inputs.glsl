@@ -136,6 +136,7 @@ MaterialInputs evaluateInputs(SceneRecord scene, ShadingPoint point, MaterialRec
     GraphReader reader = graphReader(scene, point, material);
     [[dont_unroll]] for (uint k = 0u; k < count; ++k) {
         GraphStep step_ = GraphStepRef(material.steps).v[k];
+        reader.point.footprint = k < material.presenceSteps ? 0.0 : point.footprint; // shadow rays have none
         vec4 value = evaluateStep(reader, step_);
         uint target = step_.code >> 16;
         setInput(inputs, target, value);

@@ -16,6 +16,8 @@ struct ShadingPoint {
     vec2 uv; // barycentric weights of vertices 1 and 2
     KeyTime at;   // between keys, where
     bool deforms; // is true
+    float footprint;  // what the ray covers, as a share of the parallelogram of the triangle's edges; 0: nothing, so that
+    float levelShare; // textures are read at their finest. 0..1: the share of paths that take the finer of two levels
 };
 
 ShadingPoint shadingPoint(SceneRecord scene, Hit hit) {
@@ -27,6 +29,7 @@ ShadingPoint shadingPoint(SceneRecord scene, Hit hit) {
     point.uv = vec2(hit.u, hit.v);
     point.at = KeyTime(0u, 0.0);
     point.deforms = false;
+    point.footprint = point.levelShare = 0.0;
     return point;
 }
 

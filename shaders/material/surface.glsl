@@ -79,8 +79,17 @@ void setSurroundings(inout Surface s, SceneRecord scene, MaterialRecord material
     s.hidden = bounds(material) && around.priority >= material.priority + (covered ? 0 : 1);
 }
 
+// What a ray covers where it hits, for textures.
+struct RayFootprint {
+    float width;      // 0: nothing
+    float levelShare; // random: see textureLevel()
+    bool sampled;     // light samples may have gone there too: they find what emits, and read it at its finest
+};
+
+const RayFootprint NO_FOOTPRINT = RayFootprint(0.0, 0.0, false);
+
 // The surface at `hit`, seen along `ray` (unit direction) by a path that is inside of `interiors`.
-Surface evaluateSurface(SceneRecord scene, Hit hit, Ray ray, uvec2 interiors) {
+Surface evaluateSurface(SceneRecord scene, Hit hit, Ray ray, RayFootprint footprint, uvec2 interiors) {
     Surface s;
     vec3 wo = -ray.direction;
     ShadingPoint point = shadingPoint(scene, hit);
@@ -90,6 +99,11 @@ Surface evaluateSurface(SceneRecord scene, Hit hit, Ray ray, uvec2 interiors) {
 
     s.material = materialIndex(scene, point);
     MaterialRecord material = MaterialRef(scene.materials).v[s.material];
+    if (!footprint.sampled || (material.flags & MATERIAL_EMISSIVE) == 0u) {
+        const vec3 across = cross(e1, e2); // the cone's cross-section, tilted
+        point.footprint = footprint.width * footprint.width / max(abs(dot(across, wo)), 1e-3 * length(across) + 1e-30);
+        point.levelShare = footprint.levelShare;
+    }
     MaterialInputs inputs = evaluateInputs(scene, point, material, material.stepCount);
     s.opacity = presenceOf(material.flags, inputs);
     setSurroundings(s, scene, material, interiors);
@@ -110,5 +124,7 @@ Surface evaluateSurface(SceneRecord scene, Hit hit, Ray ray, uvec2 interiors) {
     return s;
 }
 
-Surface evaluateSurface(SceneRecord scene, Hit hit, Ray ray) { return evaluateSurface(scene, hit, ray, uvec2(0u)); }
+Surface evaluateSurface(SceneRecord scene, Hit hit, Ray ray, RayFootprint footprint) {
+    return evaluateSurface(scene, hit, ray, footprint, uvec2(0u));
+}
 #endif

@@ -32,6 +32,14 @@ int wrapTexel(int i, int size, uint wrap, inout bool inside) {
     return clamp(i, 0, size - 1);
 }
 
+// The level of detail whose texels are as large as what a ray covers of a texture: the coarser of two with the chance that
+// is nearer, `share` being a random number. Ray cones: T. Akenine-Moller et al., "Improved Shader and Texture Level of
+// Detail Using Ray Cones", JCGT 10(1), 2021; here by areas instead of widths.
+uint textureLevel(TextureRecord texture, float area, float share) {
+    float texels = area * float(texture.width) * float(texture.height);
+    return min(uint(0.5 * log2(max(texels, 1.0)) + share), texture.coarserLevels);
+}
+
 // The value of a texture (not TEXEL_NONE) at `st`. It spans [0, 1]^2; texel centres are at half-integer texel coordinates.
 vec4 sampleTexture(TextureRecord texture, vec2 st) {
     ivec2 size = ivec2(texture.width, texture.height);
@@ -39,6 +47,8 @@ vec4 sampleTexture(TextureRecord texture, vec2 st) {
     vec2 corner = floor(p);
     vec2 f = p - corner;
     vec4 sum = vec4(0.0);
+    bvec2 outside = notEqual(st, clamp(st, 0.0, 1.0));
+    if ((texture.wrapS == WRAP_CUT && outside.x) || (texture.wrapT == WRAP_CUT && outside.y)) return sum;
     [[dont_unroll]] for (int k = 0; k < 4; ++k) {
         ivec2 tap = ivec2(k & 1, k >> 1);
         bool inside = true;

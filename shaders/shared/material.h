@@ -109,8 +109,10 @@ HIPR_CONST uint WRAP_BLACK = 0u;
 HIPR_CONST uint WRAP_CLAMP = 1u;
 HIPR_CONST uint WRAP_REPEAT = 2u;
 HIPR_CONST uint WRAP_MIRROR = 3u;
+HIPR_CONST uint WRAP_CUT = 4u;              // of coarser levels of WRAP_BLACK: black from the edge on, not from half a texel inside
 
 // Texels in a buffer, bilinear-filtered in the shader: no descriptor, so thousands cost nothing. Row 0 is t = 0 (bottom).
+// One level of detail of a texture; the finest is the one that materials and lights name.
 struct TextureRecord {
     uint64_t texels;
     uint width;
@@ -118,6 +120,8 @@ struct TextureRecord {
     uint format;             // TEXEL_*
     uint wrapS;              // WRAP_*
     uint wrapT;
+    uint coarserLevels;      // how many coarser levels there are, each half as large as the one before
+    uint firstCoarser;       // TextureRecord of the first of them; the others follow
     uint pad;
 };
 

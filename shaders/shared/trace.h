@@ -79,6 +79,7 @@ struct PathState {
     uint categories;         // InstanceRecord::categories of the surface that scattered it last
     uint lightNormal;        // of that surface, where light reaches one side alone: see shaders/light/tree.glsl
     uvec2 interiors;         // what the path is inside of: see shaders/material/nesting.glsl
+    vec2 cone;               // width at the origin of the ray in flight, and how much it grows per length: see trace/cone.glsl
 };
 
 // What a shadow ray carries.
@@ -233,6 +234,7 @@ struct TraceRecord {
     uint cameraKeyCount;     // 0: the camera stands still
     uint moving;             // 1: paths have times
     float frameTime;         // of the shutter, at which first hits are found
+    uint filtersTextures;    // 0: textures are read at their finest
 };
 
 // Push constants of every wavefront kernel.

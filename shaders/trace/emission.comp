@@ -13,6 +13,6 @@ void main() {
     ShadowWorkRef works = ShadowWorkRef(trace.shadowWork);
     const bool blocked = SlotRef(trace.shadowResults).v[i] != 0u;
     if (end.instance == NO_INDEX || (blocked && works.v[i].shadow == 0ul)) return;
-    const Surface surface = evaluateSurface(SceneRef(trace.scene).v, end, RayRef(trace.shadowRays).v[i]);
+    const Surface surface = evaluateSurface(SceneRef(trace.scene).v, end, RayRef(trace.shadowRays).v[i], NO_FOOTPRINT);
     works.v[i].contribution *= surface.opacity * surface.emission;
 }

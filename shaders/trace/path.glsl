@@ -47,6 +47,7 @@ struct Path {
     uint categories;
     uint lightNormal;
     uvec2 interiors; // with SCENE_HAS_NESTING
+    vec2 cone;
 };
 
 Path loadPath(TraceRecord trace, uint slot) {
@@ -56,7 +57,7 @@ Path loadPath(TraceRecord trace, uint slot) {
                 uvec2(pixel & 0xffffu, pixel >> 16), paths.v[slot].sampleIndex, paths.v[slot].history,
                 paths.v[slot].medium, paths.v[slot].mediumColor, paths.v[slot].mediumRadius,
                 paths.v[slot].categories, paths.v[slot].lightNormal,
-                sceneHas(SCENE_HAS_NESTING) ? paths.v[slot].interiors : uvec2(0u));
+                sceneHas(SCENE_HAS_NESTING) ? paths.v[slot].interiors : uvec2(0u), paths.v[slot].cone);
 }
 
 void storePath(TraceRecord trace, Path path) {
@@ -72,6 +73,7 @@ void storePath(TraceRecord trace, Path path) {
     paths.v[path.slot].categories = path.categories;
     paths.v[path.slot].lightNormal = path.lightNormal;
     if (sceneHas(SCENE_HAS_NESTING)) paths.v[path.slot].interiors = path.interiors;
+    paths.v[path.slot].cone = path.cone;
 }
 
 vec4 randomVector(TraceRecord trace, Path path, uint which) {

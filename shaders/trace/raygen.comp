@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "trace/camera.glsl"
+#include "trace/cone.glsl"
 #include "sampling/sobol.glsl"
 #include "sampling/filter.glsl"
 #include "shared/reproject.h"
@@ -43,6 +44,7 @@ void main() {
 
     const vec4 u = sobol4(pixel, path.sampleIndex, 0u, trace.seed);
     const vec2 film = vec2(pixel) + 0.5 + sampleFilter(trace.pixelFilter, trace.filterWidth, u.xy);
+    path.cone = cameraCone(CameraRef(trace.camera), film, uvec2(trace.width, trace.height));
     PathRef(trace.paths).v[slot] = path;
     PathSeenRef(trace.pathSeen).v[slot].look = SEEN_NOTHING;
     if (trace.lpe != 0ul) beginExpressions(trace.lpe, slot);

@@ -2,6 +2,7 @@
 // sample goes to the shadow queue, the continued path to the other ray queue.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "trace/cone.glsl"
 #include "trace/offset.glsl"
 #include "trace/path.glsl"
 #include "material/surface.glsl"
@@ -89,6 +90,7 @@ bool bounce(TraceRecord trace, inout Path path, inout Ray ray, Surface surface, 
     if (!sampleBsdf(surface, wo, randomVector(trace, path, RANDOM_BSDF), wi, weight, pdf, lobe)) return false;
     path.throughput *= weight;
     path.bsdfPdf = pdf;
+    path.cone = scatteredCone(path.cone, pdf);
     path.history = extendHistory(path.history, scatterKind(surface, lobe, wi), path.depth);
     ++path.depth;
     ++path.event;
@@ -127,6 +129,7 @@ void keepSeenSurface(TraceRecord trace, Path path, Surface surface, float time) 
 // Scatters a path in the medium it is in, at the end of its flight. False: the path ends here.
 bool scatterInMedium(TraceRecord trace, MediumRecord medium, inout Path path, inout Ray ray) {
     if (path.depth >= trace.maxDepth || path.event - path.depth >= MEDIUM_STEP_LIMIT) return false;
+    path.cone = flownCone(path.cone, ray.tMax);
     const vec4 u = randomVector(trace, path, RANDOM_BSDF);
     if (!survives(path, u.z)) return false;
     ++path.event;
@@ -134,6 +137,7 @@ bool scatterInMedium(TraceRecord trace, MediumRecord medium, inout Path path, in
     if ((path.medium & MEDIUM_KIND) == MEDIUM_INTERIOR) sortScattered(trace, path, lobeShares, LPE_VOLUME);
     ray = Ray(ray.origin + ray.direction * ray.tMax, 0.0, direction, RAY_INFINITY, ray.time);
     path.bsdfPdf = -1.0; // no light was sampled here
+    path.cone = scatteredCone(path.cone, -1.0);
     return true;
 }
 
@@ -161,9 +165,18 @@ void addEmission(TraceRecord trace, SceneRecord scene, Path path, Ray ray, Hit h
     collectEmission(trace, path, path.throughput * emission * weight, group);
 }
 
+// What a path covers where it hits. The last digits of a random number choose between levels: its first ones, which choose
+// a place on a light, say nothing about them.
+RayFootprint footprintOf(TraceRecord trace, Path path, float distance_, float u) {
+    if (trace.filtersTextures == 0u) return NO_FOOTPRINT;
+    const float width = abs(flownCone(path.cone, distance_).x) * coneOfSample(trace, path.sampleIndex);
+    return RayFootprint(width, fract(u * 4096.0), path.depth > 0u);
+}
+
 // What a surface does with a path. False: the path ends here.
 bool scatter(TraceRecord trace, SceneRecord scene, inout Path path, inout Ray ray, Hit hit) {
-    Surface surface = evaluateSurface(scene, hit, ray, path.interiors);
+    const vec4 u = randomVector(trace, path, RANDOM_LIGHT);
+    Surface surface = evaluateSurface(scene, hit, ray, footprintOf(trace, path, hit.t, u.y), path.interiors);
     const InstanceRecord instance = InstanceRef(scene.instances).v[hit.instance];
     if (path.depth == 0u && culls(instance.flags, surface.frontFacing)) return passSurface(path, ray, hit);
     if (sceneHas(SCENE_HAS_NESTING) && surface.hidden) {
@@ -171,7 +184,6 @@ bool scatter(TraceRecord trace, SceneRecord scene, inout Path path, inout Ray ra
         return passSurface(path, ray, hit);
     }
     if (leavesSubsurface(path, surface)) setSubsurfaceExit(surface);
-    const vec4 u = randomVector(trace, path, RANDOM_LIGHT);
     if (u.w >= surface.opacity) return passSurface(path, ray, hit);
     if (path.depth == 0u) {
         PathRef(trace.paths).v[path.slot].alpha = 1.0;
@@ -181,6 +193,7 @@ bool scatter(TraceRecord trace, SceneRecord scene, inout Path path, inout Ray ra
     }
     addEmission(trace, scene, path, ray, hit, surface.emission);
     if (path.depth >= trace.maxDepth) return false;
+    path.cone = flownCone(path.cone, hit.t);
     disperse(trace, scene, path, surface);
     path.categories = instance.categories;
     path.lightNormal = surface.openPbr || surface.glass > 0.0 ? 0u : packLightNormal(surface.ng);

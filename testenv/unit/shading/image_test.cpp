@@ -17,7 +17,8 @@ std::shared_ptr<const ColorManager> color() {
 Image decode(const Bytes& bytes, const std::string& path, const std::string& space = "auto") {
     Image image;
     std::string error;
-    EXPECT_TRUE(decodeImage(bytes, path, space, *color(), image, error)) << path << ": " << error;
+    const auto file = ImageFile::open(path, serve({{path, bytes}}), error);
+    EXPECT_TRUE(file && decodeImage(*file, space, *color(), image, error)) << path << ": " << error;
     return image;
 }
 
@@ -103,7 +104,8 @@ TEST(Image, BrokenFilesGiveAReason) {
     for (const auto& [path, bytes] : files) {
         Image image;
         std::string error;
-        EXPECT_FALSE(decodeImage(bytes, path, "auto", *color(), image, error)) << path;
+        const auto file = ImageFile::open(path, serve(files), error);
+        EXPECT_FALSE(file && decodeImage(*file, "auto", *color(), image, error)) << path;
         EXPECT_FALSE(error.empty()) << path;
     }
 }

@@ -45,6 +45,27 @@ Bytes encodeFloat(const std::string& extension, int width, int height, int chann
     return encode(extension, spec, OIIO::TypeDesc::FLOAT, pixels.data());
 }
 
+Bytes encodeLevels(uint32_t width, uint32_t height, const std::vector<float>& greys) {
+    Bytes bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    const auto output = OIIO::ImageOutput::create("x.exr", &memory);
+    OIIO::ImageSpec spec(0, 0, 3, OIIO::TypeDesc::HALF);
+    spec.tile_width = spec.tile_height = 16;
+    spec["textureformat"] = "Plain Texture";
+    std::vector<LevelSize> sizes = levelSizes({width, height});
+    sizes.resize(greys.size());
+    for (size_t i = 0; i < sizes.size(); ++i) {
+        spec.width = spec.full_width = int(sizes[i].width);
+        spec.height = spec.full_height = int(sizes[i].height);
+        const std::vector<float> pixels(size_t(spec.width) * size_t(spec.height) * 3, greys[i]);
+        const auto mode = i == 0 ? OIIO::ImageOutput::Create : OIIO::ImageOutput::AppendMIPLevel;
+        if (!output->open("x.exr", spec, mode) || !output->write_image(OIIO::TypeDesc::FLOAT, pixels.data()))
+            throw std::runtime_error("cannot encode levels: " + output->geterror());
+    }
+    output->close();
+    return bytes;
+}
+
 Bytes encodePpm(int width, int height, const std::vector<uint8_t>& rgb) {
     const std::string header = "P6\n" + std::to_string(width) + " " + std::to_string(height) + "\n255\n";
     Bytes bytes(header.begin(), header.end());

@@ -22,6 +22,8 @@ Bytes encode8(const std::string& extension, int width, int height, int channels,
               const std::vector<uint8_t>& pixels);
 Bytes encodeFloat(const std::string& extension, int width, int height, int channels,
                   const std::vector<float>& pixels, const std::string& wrapModes = "");
+/// A mip-mapped OpenEXR file whose levels show one grey each; the first is `width` x `height`.
+Bytes encodeLevels(uint32_t width, uint32_t height, const std::vector<float>& greys);
 /// A binary PPM, which needs a file on disk to be read.
 Bytes encodePpm(int width, int height, const std::vector<uint8_t>& rgb);
 

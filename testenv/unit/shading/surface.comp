@@ -15,7 +15,7 @@ struct SurfaceOutcome {
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer HitRef { Hit v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer RayRef { Ray v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer OutcomeRef { SurfaceOutcome v[]; };
-layout(push_constant, scalar) uniform Push { uint64_t scene, hits, rays, outcomes; uint count; } push;
+layout(push_constant, scalar) uniform Push { uint64_t scene, hits, rays, outcomes; uint count; float width, levelShare; uint sampled; } push;
 
 void main() {
     const uint i = gl_GlobalInvocationID.x;
@@ -23,7 +23,8 @@ void main() {
     const SceneRecord scene = SceneRef(push.scene).v;
     const Hit hit = HitRef(push.hits).v[i];
     const Ray ray = RayRef(push.rays).v[i];
-    const Surface s = evaluateSurface(scene, hit, ray);
+    const RayFootprint footprint = RayFootprint(push.width, push.levelShare, push.sampled != 0u);
+    const Surface s = evaluateSurface(scene, hit, ray, footprint);
     OutcomeRef(push.outcomes).v[i] =
         SurfaceOutcome(s.position, s.ng, s.ns, s.tangent, s.emission, s.albedo, s.diffuse, s.f0, s.opacity,
                        evaluatePresence(scene, hit, ray.time), s.alpha.x, s.coat, s.coatAlpha.x, s.glass, s.eta,

@@ -9,7 +9,9 @@ namespace {
 
 struct Push {
     VkDeviceAddress scene, hits, rays, outcomes;
-    uint32_t count, pad = 0;
+    uint32_t count;
+    float width, levelShare;
+    uint32_t sampled;
 };
 
 const Kernel& kernel() {
@@ -93,7 +95,7 @@ std::vector<SurfaceOutcome> SurfaceScene::look(const std::vector<glm::vec2>& poi
     const Buffer outcomes = emptyBuffer<SurfaceOutcome>(points.size());
     dispatch(kernel(),
              Push{sceneBuffer.address(), hitBuffer.address(), rayBuffer.address(), outcomes.address(),
-                  uint32_t(points.size())},
+                  uint32_t(points.size()), footprint, levelShare, sampled},
              points.size());
     return toHost<SurfaceOutcome>(outcomes, points.size());
 }

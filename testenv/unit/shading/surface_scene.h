@@ -35,6 +35,8 @@ public:
     std::vector<uint16_t> slots;    ///< per triangle; empty: all slot 0
     std::vector<MaterialDesc> materials;
     glm::mat4 objectToWorld{1.f};
+    float footprint = 0.f, levelShare = 0.f; ///< RayFootprint of all looks
+    bool sampled = false;
 
     /// Looks at points (x, y) of the quad from above (below for `fromBack`).
     std::vector<SurfaceOutcome> look(const std::vector<glm::vec2>& points, bool fromBack = false) const;
