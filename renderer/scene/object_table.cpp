@@ -23,13 +23,6 @@ bool isTranslucent(const std::vector<Primvar>& primvars) {
     return false;
 }
 
-uint32_t cullFlags(CullStyle style, bool doubleSided) {
-    if (style == CullStyle::BackUnlessDoubleSided && !doubleSided) style = CullStyle::Back;
-    if (style == CullStyle::FrontUnlessDoubleSided && !doubleSided) style = CullStyle::Front;
-    if (style == CullStyle::Back) return gpu::INSTANCE_CULL_BACK;
-    return style == CullStyle::Front ? gpu::INSTANCE_CULL_FRONT : 0;
-}
-
 } // namespace
 
 bool ObjectTable::Placement::operator==(const Placement& o) const {
@@ -204,7 +197,8 @@ ObjectTable::Placement ObjectTable::place(Entry& entry, const Geometry* geometry
     placement.geometry = geometry->slot;
     placement.materialCount = geometry->slotCount;
     placement.primId = entry.desc->primId;
-    placement.flags = cullFlags(styleOf(*entry.desc), geometry->mesh->doubleSided);
+    const uint32_t cull = cullFlags(styleOf(*entry.desc), geometry->mesh->doubleSided);
+    if (cull != 0 && !entry.backToBack.of(geometry->mesh)) placement.flags = cull;
     const bool fallbackNonOpaque =
         geometry->translucent || (entry.instances && isTranslucent(entry.instances->primvars));
     for (uint32_t slot = 0; slot < geometry->slotCount; ++slot) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "renderer/scene/culling.h"
 #include "renderer/scene/geometry_table.h"
 #include "renderer/scene/splat_table.h"
 #include "renderer/scene/volume_table.h"
@@ -112,6 +113,7 @@ private:
         WorldBox meshBox, box; ///< of the geometry, splats or volume, in object space; of all instances
         bool transformsPending = true, boundsPending = true;
         bool missingReported = false;
+        BackToBack backToBack;
         bool fresh = false;     ///< added since the last commit: what else is said of it is no change
         gpu::SlotNames names{}; ///< but for the material
         std::vector<SplatPlacement> splats;   ///< of `usable`, as of the last commit

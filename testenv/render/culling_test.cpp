@@ -63,6 +63,21 @@ TEST(Culling, IsNotForLight) {
     EXPECT_EQ(stage.color().at(Side / 2, Side / 2), glm::vec4(0, 0, 0, 1));
 }
 
+/// As cards of UsdImaging are: a ray that passed one of the faces would miss the other.
+TEST(Culling, LeavesFacesBackToBackAlone) {
+    auto both = std::make_shared<TriangleMesh>(*quadMesh());
+    const std::vector<glm::vec3> front = both->positions;
+    both->positions.insert(both->positions.end(), front.begin(), front.end());
+    both->triangles.insert(both->triangles.end(), {{5, 4, 7}, {7, 6, 5}});
+    both->triangleFace.insert(both->triangleFace.end(), {1, 1});
+    Stage stage(Ball::few());
+    stage.add(both, matte(glm::vec3(0.5f)), {scaling(9, 9, 1)});
+    stage.edit.setCamera(Ball::view(CullStyle::Back));
+    stage.film(Side, Side);
+    stage.render();
+    EXPECT_EQ(mean(stage.color()).w, 1.f);
+}
+
 TEST(Culling, EditedIsAsFresh) {
     Ball edited;
     edited.render();
