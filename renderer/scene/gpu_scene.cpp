@@ -254,11 +254,11 @@ void GpuScene::commit() {
     _device.upload(_record, &_hostRecord, sizeof(_hostRecord));
 }
 
-// Pictures must not be black for want of a light. Lights that are switched off are there on purpose, though,
-// and meshes that emit are lights.
+// Pictures must not be black for want of a light. Lights that are switched off are there on purpose, though.
+// Meshes that emit are no lights here: viewers light scenes without light prims from the camera, whatever
+// glows in them.
 void GpuScene::commitLights() {
-    const bool unlit = (_lightDescs.empty() || !_options.lights) && _meshLights.lights().empty();
-    if (_camera && unlit) {
+    if (_camera && (_lightDescs.empty() || !_options.lights)) {
         _lights.set(CameraLight, cameraLight(*_camera));
         if (!_cameraLightReported)
             _device.messages()(Severity::Info, "", "no light in the scene; lighting it from the camera");

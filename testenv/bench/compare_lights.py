@@ -163,7 +163,8 @@ def lights(folder):
     yield "dome with a texture", usd_light("DomeLight", rotation(1, 25), texture__file=sky, **common), {
         "type": "envmap", "scale": 12.0, "to_world": mi.ScalarTransform4f(rotation(1, 25) @ SKY_TURN),
         "bitmap": mi.Bitmap(np.asarray(mi.Bitmap(str(sky))) * np.float32(COLOR))}
-    yield "emissive mesh", glow + usd_mesh("Lamp", *QUAD, "Glow", aim @ turned @ rect), shape(
+    off = 'def SphereLight "Off" {\n    token visibility = "invisible"\n}\n'  # keeps the camera's light away
+    yield "emissive mesh", off + glow + usd_mesh("Lamp", *QUAD, "Glow", aim @ turned @ rect), shape(
         "rectangle", aim @ turned @ rect, area(radiance), bsdf={"type": "diffuse", "reflectance": rgb((0, 0, 0))})
 
 
