@@ -62,6 +62,9 @@ glm::vec3 seenThrough(const std::vector<Filling>& boxes) {
     MaterialDesc glow = matte(glm::vec3(0.f));
     glow.emissiveColor = constantColor(glm::vec3(1.f));
     stage.add(quadMesh(), glow, {placed(scaling(20, 20, 1), 0, 0, -8)});
+    LightDesc off; // keeps the camera's light away
+    off.visible = false;
+    stage.add(off);
     stage.edit.setCamera(lookAt({0, 0, 4}, {0, 0, 0}, 0.5));
     stage.film(8, 8);
     stage.render();
