@@ -42,8 +42,8 @@ BackgroundKernels::BackgroundKernels(Device& device, std::vector<KernelSource> s
     _threads.emplace_back(&BackgroundKernels::buildInOrder, this);
     // Drivers of real devices compile in the calling thread; they can be assisted without a detour.
     if (device.info().cpu && !sharesThroughDisk(device)) return;
-    // The validation layer looks devices up in tables without locks (seen with 1.3.239): none may come or go
-    // meanwhile.
+    // The validation layer (1.3.239) crashed in a look-up once, most likely because assistants' devices came
+    // and went meanwhile.
     if (device.validation()) return;
     const size_t cores = std::max(1u, std::thread::hardware_concurrency());
     const size_t assistants = std::min({cores - 1, sources.size() - 1, MaxAssistants});
