@@ -5,6 +5,7 @@
 #include <set>
 
 #include "plugin/hdHipr/assets.h"
+#include "plugin/hdHipr/cards.h"
 #include "plugin/hdHipr/messages.h"
 #include "plugin/hdHipr/primvars.h"
 #include "pxr/base/tf/stringUtils.h"
@@ -227,14 +228,11 @@ std::optional<hipr::MaterialDesc> materialDesc(SdfPath const& materialPath,
     }
     HdMaterialNetwork const& network = surface->second;
     Node const& terminal = terminalOf(networks, network);
-    if (TfStringEndsWith(terminal.identifier.GetString(), "<glslfx>")) {
-        // UsdImaging's stand-in for models drawn as cards. Without textures it shows displayColor, as meshes
-        // do.
-        if (network.nodes.size() > 1) {
-            warnOnce(materialPath.GetString(),
-                     "textures of card draw modes are not supported; displayColor is shown");
-        }
-        return std::nullopt;
+    if (isCardShader(terminal)) {
+        HdMaterialNetworkMap cards;
+        cards.map[HdMaterialTerminalTokens->surface] = cardNetwork(network, terminal);
+        cards.terminals = {cards.map[HdMaterialTerminalTokens->surface].nodes.back().path};
+        return materialDesc(materialPath, cards);
     }
     Translator translator(materialPath, network);
     hipr::MaterialDesc desc;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "plugin/hdHipr/cards.h"
 #include "plugin/hdHipr/convert.h"
 #include "plugin/hdHipr/instancer.h"
 #include "plugin/hdHipr/messages.h"
@@ -314,7 +315,12 @@ void HdHiprMesh::sendGeometry(HdSceneDelegate& delegate, Rebuild rebuild, HdHipr
     _desc.refineLevel = _style.refineLevel;
     _desc.flatNormals = _style.flat || (faceted && !hasNormals);
     const bool pointsOnly = rebuild == Rebuild::Points && _mesh && !_mesh->triangles.empty();
-    _mesh = pointsOnly ? hipr::updatePoints(*_mesh, _desc, report) : hipr::buildTriangleMesh(_desc, report);
+    if (isCards(_desc)) {
+        _mesh = hipr::buildTriangleMesh(separateCards(_desc), report);
+    } else {
+        _mesh =
+            pointsOnly ? hipr::updatePoints(*_mesh, _desc, report) : hipr::buildTriangleMesh(_desc, report);
+    }
     param.edit().setGeometry(_geometry, param.shutterOpen() ? meshWithMotion(delegate) : _mesh);
 }
 

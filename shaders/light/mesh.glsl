@@ -46,11 +46,13 @@ bool sampleMesh(SceneRecord scene, LightRecord light, vec3 p, vec2 u, out vec3 w
     vec3 corner, e1, e2;
     worldTriangle(scene, light.instance, triangle, corner, e1, e2);
     vec3 normal = cross(e1, e2), target = corner + uv.x * e1 + uv.y * e2;
-    vec3 outside = normal * inversesqrt(max(dot(normal, normal), 1e-38)) * (dot(normal, p - target) < 0.0 ? -1.0 : 1.0);
-    vec3 way = offsetOrigin(target, outside) - p; // so that the triangle does not block its own light
+    vec3 outside = normal * inversesqrt(max(dot(normal, normal), 1e-38));
+    float height = dot(outside, p - target), restless = restlessHeight(e1, e2);
+    vec3 way = offsetOrigin(target, height < 0.0 ? -outside : outside, restless) - p; // not to block its own light
     float t = length(way);
     wi = way / t;
-    pdf = trianglePdf(normal, chance, t, wi);
+    // In its own plane a triangle is not seen: what offset and rounding show of it there is not light.
+    pdf = abs(height) <= restless ? 0.0 : trianglePdf(normal, chance, t, (target - p) / t);
     point = Hit(light.instance, triangle, t, uv.x, uv.y);
     return t > 0.0 && pdf > 0.0;
 }

@@ -8,6 +8,7 @@ struct Surface {
     vec3 position;
     vec3 ng;            // geometric normal on the viewer's side, unit length
     vec3 ns;            // shading normal on the viewer's side, unit length
+    float restless;     // rays that begin lower over the surface may meet it again, see restlessHeight()
     vec3 tangent;       // x axis of the lobes, perpendicular to ns
     vec3 emission;      // radiance
     float opacity;      // part of light the surface stops; the rest goes straight on

@@ -48,7 +48,8 @@ PrimvarCorners findPrimvar(InstanceRecord instance, GeometryRecord geometry, uin
     return corners;
 }
 
+// Exact where all corners are equal, for graphs that ask whether a number of faces is a certain one.
 vec4 interpolatePrimvar(PrimvarCorners corners, vec2 uv) {
-    return corners.a * (1.0 - uv.x - uv.y) + corners.b * uv.x + corners.c * uv.y;
+    return corners.a + (corners.b - corners.a) * uv.x + (corners.c - corners.a) * uv.y;
 }
 #endif

@@ -8,6 +8,7 @@
 #include "material/nesting.glsl"
 #include "material/openpbr.glsl"
 #include "material/preview.glsl"
+#include "trace/offset.glsl"
 
 // The smallest turn of `n` that lets the mirror direction of `wo` leave the surface whose geometric normal is `ng`, so
 // that interpolated and mapped normals never show a viewer their back. wo and ng are on one side.
@@ -41,6 +42,7 @@ void setGeometry(inout Surface s, ShadingPoint point, vec3 wo, out vec3 e1, out 
     e2 = mat3(point.instance.objectToWorld) * edge2;
     s.ng = normalizeOr(triangleNormal(e1, e2, (point.instance.flags & INSTANCE_MIRRORED) != 0u), wo);
     s.frontFacing = dot(s.ng, wo) >= 0.0;
+    s.restless = restlessHeight(e1, e2);
 }
 
 // The parameters of the lobes, for a viewer whose direction has the cosine `cosine`.

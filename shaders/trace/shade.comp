@@ -14,7 +14,7 @@
 const float PLANE_REACH = 0.05;
 
 vec3 offsetTowards(Surface surface, vec3 direction) {
-    return offsetOrigin(surface.position, dot(surface.ng, direction) < 0.0 ? -surface.ng : surface.ng);
+    return offsetOrigin(surface.position, dot(surface.ng, direction) < 0.0 ? -surface.ng : surface.ng, surface.restless);
 }
 
 // Whether a path that goes on in the direction `wi` is in no medium then. Surfaces that emit are found through media by the

@@ -161,7 +161,7 @@ struct Sheets {
     void show(Stage& stage, bool left, bool right) const {
         if (left) stage.add(sheet(), glowing(textured(first)), {translation(-0.5f, 0, 0)});
         if (right) stage.add(sheet(), glowing(textured(second)), {translation(0.5f, 0, 0)});
-        stage.edit.setCamera(lookAt({0, 0, 3}, {0, 0, 0}));
+        stage.edit.setCamera(lookAt({0, 0, 0.3}, {0, 0, 0})); // two texels a pixel
         stage.film(48, 48);
     }
     static Settings limited(const std::string& mode = "delta") {

@@ -102,6 +102,31 @@ INSTANTIATE_TEST_SUITE_P(
                 {{0, 0.8, "black"}, {0, -0.8, "red"}, {0.8, 0, "red"}}}),
     nameOf);
 
+INSTANTIATE_TEST_SUITE_P(DrawModes, FeatureTest,
+                         testing::Values(Feature{"Cards",
+                                                 "cards.usda",
+                                                 14,
+                                                 2,
+                                                 {},
+                                                 {{-4.7, -0.7, "red"},
+                                                  {-4.3, -0.7, "green"},
+                                                  {-3.7, -0.7, "blue"},
+                                                  {-3.3, -0.7, "white"},
+                                                  {-2.4, 0.3, "red"},
+                                                  {-1.4, -0.3, "red"},
+                                                  {-0.4, 0.3, "blue"},
+                                                  {0.6, -0.3, "blue"},
+                                                  {1.3, -0.7, "red"},
+                                                  {1.7, -0.7, "green"},
+                                                  {2.3, -0.7, "blue"},
+                                                  {2.7, -0.7, "white"},
+                                                  {3.6, 0.3, "green"},
+                                                  {4.4, -0.3, "green"},
+                                                  {3, 0, "black"},
+                                                  {5.2, 0, "green"},
+                                                  {6, 0, "black"}}}),
+                         nameOf);
+
 INSTANTIATE_TEST_SUITE_P(Instancing, FeatureTest,
                          testing::Values(Feature{
                              "Instancing",

@@ -1,0 +1,31 @@
+/// @file cards.h
+/// Models drawn as cards (UsdGeomModelAPI, `model:drawMode = "cards"`), as UsdImaging up to 22 hands them
+/// over: a mesh of up to six quads, and a material that ends in a GLSL shader of Storm's.
+#pragma once
+
+#include "pxr/imaging/hd/material.h"
+#include "pxr/pxr.h"
+#include "renderer/api/mesh.h"
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+namespace hdhipr {
+
+/// Whether a surface is Storm's shader for cards.
+bool isCardShader(HdMaterialNode const& surface);
+
+/// The network with a UsdPreviewSurface in place of Storm's shader: it shows on each card the picture (or
+/// colour) of the side that the primvar `cardsTexAssign` names, and is not there where that is transparent.
+HdMaterialNetwork cardNetwork(HdMaterialNetwork const& network, HdMaterialNode const& surface);
+
+/// Whether a mesh is a model's cards.
+bool isCards(hipr::MeshDesc const& mesh);
+
+/// The mesh with its faces moved apart by some 1e-4 of its size, each along its normal. The two pictures of a
+/// card lie on one another, where Storm culls the one that looks away; here a ray finds the one that looks at
+/// it.
+hipr::MeshDesc separateCards(hipr::MeshDesc mesh);
+
+} // namespace hdhipr
+
+PXR_NAMESPACE_CLOSE_SCOPE
