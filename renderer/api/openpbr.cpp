@@ -67,9 +67,9 @@ const std::array<OpenPbrInputInfo, size_t(OpenPbrInput::Count)>& openPbrInputs()
         scalar("geometry_opacity", 1.f, 0.f, 1.f),
         scalar("geometry_thin_walled", 0.f, 0.f, 1.f, Use::Constant),
         direction("geometry_normal", Use::Texture),
-        direction("geometry_coat_normal", Use::None),
-        direction("geometry_tangent", Use::None),
-        direction("geometry_coat_tangent", Use::None),
+        direction("geometry_coat_normal", Use::Graph),
+        direction("geometry_tangent", Use::Graph),
+        direction("geometry_coat_tangent", Use::Graph),
         scalar("dielectric_priority", 0.f, -1e6f, 1e6f, Use::Constant),
     }};
     return rows;

@@ -63,7 +63,7 @@ enum class InputUse : uint32_t {
     Full,     ///< constants, textures and primvars
     Constant, ///< the constant alone: what drives the input otherwise has no effect
     Texture,  ///< normal maps: a texture or a graph alone
-    None      ///< no effect yet
+    Graph     ///< a direction in world space that a graph makes
 };
 
 /// One row of the table that parser, renderer, dump and documentation share.

@@ -11,6 +11,15 @@ using In = OpenPbrInput;
 
 const GraphValue One(1.f), Zero(0.f);
 
+/// A tangent-space normal that a graph makes, to world space.
+GraphValue toWorld(GraphBuilder& b, GraphValue v) {
+    const auto part = [&](MtlxGeometry axis, uint32_t which) {
+        return b.multiply(mtlxGeometry(b, axis), b.component(v, which));
+    };
+    const GraphValue flat = b.add(part(MtlxGeometry::TangentWorld, 0), part(MtlxGeometry::BitangentWorld, 1));
+    return b.add(flat, part(MtlxGeometry::NormalWorld, 2));
+}
+
 struct OpenPbrWriter {
     const Surface& surface;
     MaterialDesc& desc;
@@ -22,9 +31,23 @@ struct OpenPbrWriter {
     }
     void set(In which, const char* name, float standard) const { set(which, in(name, standard)); }
 
-    /// Directions keep the surface's own unless the network gives one.
+    /// Directions keep the surface's own unless the network gives one. A picture alone is a normal map.
     void direction(In which, const char* name) const {
-        if (surface.given(name)) set(which, in(name));
+        if (!surface.given(name)) return;
+        const GraphValue value = in(name);
+        set(which, value);
+        if (which == In::GeometryCoatNormal && desc.openPbr[which].source == MaterialInput::Source::Texture)
+            set(which, toWorld(build(), value));
+    }
+    /// A tangent, turned around the normal by a share of a whole turn.
+    void tangent(In which, const char* name, const char* rotation) const {
+        GraphBuilder& b = build();
+        const GraphValue turns = in(rotation);
+        const bool turned = !(turns == Zero);
+        if (!turned) return direction(which, name);
+        const GraphValue along = surface.given(name) ? in(name) : mtlxGeometry(b, MtlxGeometry::TangentWorld);
+        set(which, b.op(GRAPH_ROTATE, along, b.multiply(turns, GraphValue(360.f)),
+                        mtlxGeometry(b, MtlxGeometry::NormalWorld)));
     }
     /// Says that an input has no effect where it is given.
     void unused(const char* name) const {
@@ -38,7 +61,10 @@ void openPbr(const Surface& surface, MaterialDesc& desc) {
     for (size_t i = 0; i < openPbrInputs().size(); ++i) {
         const OpenPbrInputInfo& info = openPbrInputs()[i];
         if (!surface.given(info.name)) continue;
-        w.set(In(i), surface.value({info.name, info.value}));
+        if (info.use == InputUse::Graph)
+            w.direction(In(i), info.name);
+        else
+            w.set(In(i), surface.value({info.name, info.value}));
     }
 }
 
@@ -117,8 +143,9 @@ template <bool First> void standardSurface(const Surface& surface, MaterialDesc&
     w.set(In::DielectricPriority, "dielectric_priority", 0.f);
     w.direction(In::GeometryNormal, "normal");
     w.direction(In::GeometryCoatNormal, "coat_normal");
-    for (const char* name : {"specular_rotation", "coat_rotation", "transmission_extra_roughness", "tangent"})
-        w.unused(name);
+    w.tangent(In::GeometryTangent, "tangent", "specular_rotation");
+    w.tangent(In::GeometryCoatTangent, "tangent", "coat_rotation");
+    w.unused("transmission_extra_roughness");
 }
 
 /// 0 opaque, 1 cut out, 2 blended.
@@ -166,7 +193,7 @@ void gltfPbr(const Surface& surface, MaterialDesc& desc) {
     w.set(In::GeometryOpacity, gltfOpacity(w));
     w.direction(In::GeometryNormal, "normal");
     w.direction(In::GeometryCoatNormal, "clearcoat_normal");
-    w.unused("tangent");
+    w.direction(In::GeometryTangent, "tangent");
 }
 
 /// Light and nothing else.
@@ -201,15 +228,6 @@ constexpr PreviewInput PreviewInputs[] = {
     {"occlusion", &MaterialDesc::occlusion},
     {"normal", &MaterialDesc::normal},
 };
-
-/// A tangent-space normal that a graph makes, to world space.
-GraphValue toWorld(GraphBuilder& b, GraphValue v) {
-    const auto part = [&](MtlxGeometry axis, uint32_t which) {
-        return b.multiply(mtlxGeometry(b, axis), b.component(v, which));
-    };
-    const GraphValue flat = b.add(part(MtlxGeometry::TangentWorld, 0), part(MtlxGeometry::BitangentWorld, 1));
-    return b.add(flat, part(MtlxGeometry::NormalWorld, 2));
-}
 
 void previewSurface(const Surface& surface, MaterialDesc& desc) {
     for (const PreviewInput& row : PreviewInputs) {

@@ -178,10 +178,10 @@ const char* shortfall(const OpenPbrInputInfo& info, const MaterialInput& input) 
         return standard || input.source == Source::Texture || input.source == Source::Graph
                    ? ""
                    : "it is used from normal maps alone";
-    case InputUse::None:
+    case InputUse::Graph:
         break;
     }
-    return standard ? "" : "it has no effect";
+    return standard || input.source == Source::Graph ? "" : "it is used from graphs alone";
 }
 
 /// Checks the inputs of one description, one after the other.
@@ -282,6 +282,14 @@ struct Resolver {
                                      uint32_t(inputs.size())));
         }
         addTangent(inputs);
+        constexpr std::pair<OpenPbrInput, uint32_t> directions[] = {
+            {OpenPbrInput::GeometryCoatNormal, gpu::INPUT_COAT_NORMAL},
+            {OpenPbrInput::GeometryTangent, gpu::INPUT_SPECULAR_TANGENT},
+            {OpenPbrInput::GeometryCoatTangent, gpu::INPUT_COAT_TANGENT}};
+        for (const auto& [which, target] : directions) {
+            const MaterialInput input = openPbrInput(desc, which);
+            if (input.source == Source::Graph) targets.push_back({target, input});
+        }
     }
 
     /// Stretched highlights follow the texture coordinates: those of the normal map, else st.

@@ -33,8 +33,13 @@ uint32_t featuresOf(const ResolvedMaterial& m) {
     const bool graph = std::any_of(m.steps.begin(), m.steps.end(), [](const gpu::GraphStep& step) {
         return (step.code & 0xff) != gpu::GRAPH_READ;
     });
+    const bool directions = std::any_of(m.steps.begin(), m.steps.end(), [](const gpu::GraphStep& step) {
+        const uint32_t target = step.code >> 16;
+        return target >= gpu::INPUT_COAT_NORMAL && target <= gpu::INPUT_COAT_TANGENT;
+    });
     return (m.model == MaterialModel::OpenPbr ? gpu::SCENE_HAS_OPENPBR : 0) |
-           (graph ? gpu::SCENE_HAS_GRAPHS : 0) | (m.priority != 0 ? gpu::SCENE_HAS_NESTING : 0);
+           (graph ? gpu::SCENE_HAS_GRAPHS : 0) | (directions ? gpu::SCENE_HAS_DIRECTIONS : 0) |
+           (m.priority != 0 ? gpu::SCENE_HAS_NESTING : 0);
 }
 
 } // namespace

@@ -34,6 +34,32 @@ LobeShares lobeShares; // of the last result of evalBsdfScaled(), which is their
 
 mat3 lobeFrame(Surface s) { return mat3(s.tangent, cross(s.ns, s.tangent), s.ns); }
 
+// The coat's axes in the frame of the lobes.
+mat3 coatFrame(Surface s) {
+    if (!sceneHas(SCENE_HAS_DIRECTIONS)) return mat3(1.0);
+    const mat3 frame = lobeFrame(s);
+    return mat3(s.coatTangent * frame, cross(s.coatNormal, s.coatTangent) * frame, s.coatNormal * frame);
+}
+
+// The coat's reflection, without its Fresnel term. `pdf`: the density with which a facet that o sees reflects
+// it to i.
+float coatReflection(Surface s, vec3 o, vec3 i, vec3 h, out float pdf) {
+    if (sceneHas(SCENE_HAS_DIRECTIONS)) {
+        const mat3 frame = coatFrame(s);
+        o = o * frame, i = i * frame, h = h * frame;
+        pdf = 0.0;
+        if (o.z <= 0.0 || i.z <= 0.0) return 0.0;
+    }
+    const float visible = ggxDensity(h, s.coatAlpha) / (4.0 * o.z), lambda = 1.0 + ggxLambda(o, s.coatAlpha);
+    pdf = visible / lambda;
+    return visible / (lambda + ggxLambda(i, s.coatAlpha));
+}
+
+// The cosine of a direction in the frame of the lobes to the coat's normal.
+float cosineToCoat(Surface s, vec3 i) {
+    return sceneHas(SCENE_HAS_DIRECTIONS) ? clamp(dot(i, s.coatNormal * lobeFrame(s)), 0.0, 1.0) : i.z;
+}
+
 // What the base's microfacets do with light between `o` and `i`, local directions.
 struct Facets {
     float cosine;  // of `o` to the facet
@@ -70,8 +96,7 @@ vec3 evalReflection(Surface s, vec3 o, vec3 i, vec3 h, Facets facets, vec2 lobeS
     vec3 specular = (s.metal * metalFresnel(s, facets.cosine) + s.dielectric * facets.fresnel) * mirrored(facets);
     vec2 single = specularAlbedo(s.albedoTable, i.z, s.roughness);
 
-    float coatVisible = ggxDensity(h, s.coatAlpha) / (4.0 * o.z), coatLambda = 1.0 + ggxLambda(o, s.coatAlpha);
-    float coat = s.coat * coatVisible / (coatLambda + ggxLambda(i, s.coatAlpha));
+    float coatPdf, coat = s.coat * coatReflection(s, o, i, h, coatPdf);
     vec3 below = s.below, interfaceIn;
     if (s.openPbr) {
         vec2 towards = interfaceAlbedo(s.openPbrTable, interfaceCell(s.dense, s.interfaceStep, s.roughness), i.z);
@@ -80,7 +105,7 @@ vec3 evalReflection(Surface s, vec3 o, vec3 i, vec3 h, Facets facets, vec2 lobeS
         float lost = s.thinWalled ? missing : 1.0 - towards.y;
         specular += (s.multiMetal * missing + s.multiUp * lost) * i.z / PI;
         coat *= dielectricFresnel(facets.cosine, s.coatEta);
-        below *= mix(vec3(1.0), s.coatThrough * exp(s.coatAbsorption / cosineInCoat(s, i.z)), s.coat);
+        below *= mix(vec3(1.0), s.coatThrough * exp(s.coatAbsorption / cosineInCoat(s, cosineToCoat(s, i))), s.coat);
     } else {
         vec2 coatTowards = specularAlbedo(s.albedoTable, i.z, s.coatRoughness);
         interfaceIn = s.f0 * single.x + single.y;
@@ -91,7 +116,7 @@ vec3 evalReflection(Surface s, vec3 o, vec3 i, vec3 h, Facets facets, vec2 lobeS
     diffuse *= coupling(s, interfaceIn) * i.z / PI;
     float fuzz = s.fuzz > 0.0 ? s.fuzz * fuzzReflection(o, i, s.fuzzRoughness) : 0.0;
 
-    pdf = s.lobeChance.x * coatVisible / coatLambda +
+    pdf = s.lobeChance.x * coatPdf +
           (s.lobeChance.y + s.lobeChance.w * reflectedShare(facets.fresnel)) * 0.25 * facets.visible + s.lobeChance.z * i.z / PI +
           s.moreChance.y / (2.0 * PI);
     vec3 shiny = coat + below * specular;
@@ -171,7 +196,14 @@ vec3 sampleBsdfDirection(Surface s, vec3 wo, vec4 u, out uint lobe) {
         float r = sqrt(max(0.0, 1.0 - z * z)), phi = 2.0 * PI * u.y;
         return frame * vec3(r * cos(phi), r * sin(phi), lobe == LOBE_DIFFUSE_DOWN || lobe == LOBE_SUBSURFACE ? -z : z);
     }
-    vec3 h = sampleVisibleNormal(o, lobe == LOBE_COAT ? s.coatAlpha : s.alpha, u.xy);
+    vec3 h;
+    if (sceneHas(SCENE_HAS_DIRECTIONS) && lobe == LOBE_COAT) {
+        const mat3 coat = coatFrame(s);
+        h = coat * sampleVisibleNormal(o * coat, s.coatAlpha, u.xy);
+        if (dot(2.0 * dot(o, h) * h - o, coat[2]) <= 0.0) return vec3(0.0);
+    } else {
+        h = sampleVisibleNormal(o, lobe == LOBE_COAT ? s.coatAlpha : s.alpha, u.xy);
+    }
     float cosine = dot(o, h);
     vec3 reflected = 2.0 * cosine * h - o;
     if (lobe == LOBE_GLASS && u.w >= reflectedShare(interfaceFresnel(s, cosine))) {

@@ -42,7 +42,10 @@ struct MaterialInputs {
     float filmThickness; // micrometres
     float filmIor;
     vec4 tangentEdges; // as stEdges, of the coordinates that stretched highlights follow
-    vec3 worldNormal;  // where a program makes one, else 0
+    vec3 worldNormal;  // where a program makes one, else 0; so are those below
+    vec3 coatNormal;
+    vec3 specularTangent;
+    vec3 coatTangent;
 };
 
 bool isOpenPbr(uint materialFlags) { return sceneHas(SCENE_HAS_OPENPBR) && (materialFlags & MATERIAL_OPENPBR) != 0u; }
@@ -63,7 +66,7 @@ MaterialInputs constantInputs(uint64_t row, bool openPbr) {
     inputs.ior = constants.v[INPUT_SPECULAR_IOR].x;
     inputs.normal = constants.v[INPUT_NORMAL].xyz;
     inputs.stEdges = inputs.tangentEdges = vec4(0.0);
-    inputs.worldNormal = vec3(0.0);
+    inputs.worldNormal = inputs.coatNormal = inputs.specularTangent = inputs.coatTangent = vec3(0.0);
     if (!openPbr) return inputs;
     inputs.baseWeight = constants.v[INPUT_BASE_WEIGHT].x;
     inputs.diffuseRoughness = constants.v[INPUT_BASE_DIFFUSE_ROUGHNESS].x;
@@ -126,6 +129,9 @@ void setInput(inout MaterialInputs inputs, uint target, vec4 value) {
     case INPUT_THIN_FILM_THICKNESS: inputs.filmThickness = value.x; break;
     case INPUT_THIN_FILM_IOR: inputs.filmIor = value.x; break;
     case INPUT_WORLD_NORMAL: if (sceneHas(SCENE_HAS_GRAPHS)) inputs.worldNormal = value.xyz; break;
+    case INPUT_COAT_NORMAL: if (sceneHas(SCENE_HAS_DIRECTIONS)) inputs.coatNormal = value.xyz; break;
+    case INPUT_SPECULAR_TANGENT: if (sceneHas(SCENE_HAS_DIRECTIONS)) inputs.specularTangent = value.xyz; break;
+    case INPUT_COAT_TANGENT: if (sceneHas(SCENE_HAS_DIRECTIONS)) inputs.coatTangent = value.xyz; break;
     }
 }
 

@@ -10,6 +10,8 @@ struct Surface {
     vec3 ns;            // shading normal on the viewer's side, unit length
     float restless;     // rays that begin lower over the surface may meet it again, see restlessHeight()
     vec3 tangent;       // x axis of the lobes, perpendicular to ns
+    vec3 coatNormal;    // as ns and tangent, of the coat: theirs but where the material says otherwise
+    vec3 coatTangent;
     vec3 emission;      // radiance
     float opacity;      // part of light the surface stops; the rest goes straight on
     vec3 albedo;        // colour of all scattered light, for the albedo AOV

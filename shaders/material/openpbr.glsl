@@ -129,8 +129,9 @@ void setOpenPbrMulti(inout Surface s, vec2 single, vec2 seen, vec2 mean) {
     s.multiDown = lost * transmitted / (s.thinWalled ? 1.0 : there);
 }
 
-// What depends on the viewer: albedos of the lobes seen from `cosine`, and how often each is sampled.
-void setOpenPbrViewer(inout Surface s, float darkening, float cosine) {
+// What depends on the viewer: albedos of the lobes seen from `cosine`, `coatCosine` to the coat's normal, and how often
+// each is sampled.
+void setOpenPbrViewer(inout Surface s, float darkening, float cosine, float coatCosine) {
     vec2 single = specularAlbedo(s.albedoTable, cosine, s.roughness);
     InterfaceCell cell = interfaceCell(s.dense, s.interfaceStep, s.roughness);
     vec2 seen = interfaceAlbedo(s.openPbrTable, cell, cosine), mean = meanInterfaceAlbedo(s.openPbrTable, cell);
@@ -144,11 +145,11 @@ void setOpenPbrViewer(inout Surface s, float darkening, float cosine) {
     setOpenPbrMulti(s, single, seen, mean);
 
     InterfaceCell coat = interfaceCell(false, indexStep(s.coatEta), s.coatRoughness);
-    float coatAlbedo = interfaceAlbedo(s.openPbrTable, coat, cosine).x;
+    float coatAlbedo = interfaceAlbedo(s.openPbrTable, coat, coatCosine).x;
     s.coatOut = s.coat * coatAlbedo;
-    vec3 absorbed = exp(s.coatAbsorption / cosineInCoat(s, cosine));
+    vec3 absorbed = exp(s.coatAbsorption / cosineInCoat(s, coatCosine));
     s.coatThrough = (1.0 - coatAlbedo) * absorbed;
-    s.below = coatDarkening(s, cosine, s.coat * darkening);
+    s.below = coatDarkening(s, coatCosine, s.coat * darkening);
     s.fuzzOut = s.fuzz * fuzzAlbedo(s.openPbrTable, cosine, s.fuzzRoughness);
     float base = 1.0 - s.fuzzOut;
     s.emission *= base * mix(vec3(1.0), absorbed, s.coat);

@@ -45,12 +45,30 @@ void setGeometry(inout Surface s, ShadingPoint point, vec3 wo, out vec3 e1, out 
     s.restless = restlessHeight(e1, e2);
 }
 
-// The parameters of the lobes, for a viewer whose direction has the cosine `cosine`.
-void setLobes(inout Surface s, MaterialInputs inputs, uint flags, float cosine) {
+// The part of `direction` that is perpendicular to `n`, as a unit vector; `otherwise` where there is none.
+vec3 perpendicularTo(vec3 n, vec3 direction, vec3 otherwise) {
+    return normalizeOr(direction - n * dot(n, direction), otherwise);
+}
+
+// The frames of coat and highlights, where the material's program makes directions of theirs. ns and tangent are there.
+void setDirections(inout Surface s, MaterialInputs inputs, vec3 wo) {
+    s.coatNormal = s.ns;
+    s.coatTangent = s.tangent;
+    if (!sceneHas(SCENE_HAS_DIRECTIONS)) return;
+    const vec3 given = s.frontFacing ? inputs.coatNormal : -inputs.coatNormal;
+    if (given != vec3(0.0)) s.coatNormal = bendNormal(normalizeOr(given, s.ns), s.ng, wo);
+    const vec3 along = perpendicularTo(s.coatNormal, s.tangent, frameAround(s.coatNormal)[0]);
+    s.coatTangent = perpendicularTo(s.coatNormal, inputs.coatTangent, along);
+    s.tangent = perpendicularTo(s.ns, inputs.specularTangent, s.tangent);
+}
+
+// The parameters of the lobes, seen from the direction `wo`.
+void setLobes(inout Surface s, MaterialInputs inputs, uint flags, vec3 wo) {
+    const float cosine = dot(s.ns, wo);
     s.openPbr = isOpenPbr(flags);
     if (s.openPbr) {
         setOpenPbrLobes(s, inputs, flags);
-        setOpenPbrViewer(s, clamp(inputs.coatDarkening, 0.0, 1.0), cosine);
+        setOpenPbrViewer(s, clamp(inputs.coatDarkening, 0.0, 1.0), cosine, dot(s.coatNormal, wo));
     } else {
         setPreviewLobes(s, inputs, flags);
         setPreviewViewer(s, cosine);
@@ -120,9 +138,10 @@ Surface evaluateSurface(SceneRecord scene, Hit hit, Ray ray, RayFootprint footpr
     s.ns = bendNormal(s.ns, s.ng, wo);
     s.tangent = frameAround(s.ns)[0];
     if (inputs.tangentEdges != vec4(0.0)) s.tangent = tangentAlong(s.ns, s.tangent, e1, e2, inputs.tangentEdges);
+    setDirections(s, inputs, wo);
     s.albedoTable = scene.specularAlbedo;
     s.openPbrTable = scene.openPbrAlbedo;
-    setLobes(s, inputs, material.flags, dot(s.ns, wo));
+    setLobes(s, inputs, material.flags, wo);
     return s;
 }
 

@@ -44,6 +44,9 @@ HIPR_CONST uint INPUT_SUBSURFACE_RADIUS_SCALE = 33u;
 HIPR_CONST uint INPUT_COUNT = 34u;
 // Beside the row: set by programs alone.
 HIPR_CONST uint INPUT_WORLD_NORMAL = 34u;           // in the place of INPUT_NORMAL, in world space, on the front side
+HIPR_CONST uint INPUT_COAT_NORMAL = 35u;            // further directions in world space, on the front side
+HIPR_CONST uint INPUT_SPECULAR_TANGENT = 36u;
+HIPR_CONST uint INPUT_COAT_TANGENT = 37u;
 
 HIPR_CONST uint MATERIAL_SPECULAR_WORKFLOW = 1u;
 HIPR_CONST uint MATERIAL_PRESENCE = 2u;     // (1 - opacity) of light goes straight through the surface, unrefracted

@@ -133,10 +133,11 @@ HIPR_CONST uint SCENE_HAS_MOTION = 128u;        // some object moves or deforms 
 HIPR_CONST uint FILM_SORTS_LIGHT = 256u;        // the film has light path expressions
 HIPR_CONST uint SCENE_HAS_CULLING = 512u;       // some instance has INSTANCE_CULL_*
 HIPR_CONST uint SCENE_HAS_NESTING = 1024u;      // some refractive material has a MaterialRecord::priority other than 0
+HIPR_CONST uint SCENE_HAS_DIRECTIONS = 8192u;   // some material's program makes INPUT_COAT_NORMAL or a tangent
 // Those that kernels which shade are specialised by: what the scene does not have is not in their code.
 HIPR_CONST uint SCENE_SHADING_FEATURES =
     SCENE_HAS_MESH_LIGHTS | SCENE_HAS_OPENPBR | SCENE_HAS_GRAPHS | SCENE_HAS_MOTION | FILM_SORTS_LIGHT |
-    SCENE_HAS_CULLING | SCENE_HAS_NESTING;
+    SCENE_HAS_CULLING | SCENE_HAS_NESTING | SCENE_HAS_DIRECTIONS;
 
 HIPR_SHARED_END
 #endif

@@ -98,6 +98,38 @@ TEST(OpenPbrPicture, SubsurfaceHasTheColourAskedFor) {
         EXPECT_NEAR(seen[c], color[c], 0.03f) << "channel " << c;
 }
 
+/// A wall whose coat looks another way reflects what is there, and follows edits of the graph that says so.
+TEST(OpenPbrPicture, CoatsHaveANormalOfTheirOwn) {
+    const auto coated = [](float degrees) {
+        MaterialDesc desc =
+            openPbr({{In::BaseWeight, grey(0)}, {In::SpecularWeight, grey(0)}, {In::CoatWeight, grey(1)}});
+        GraphBuilder build;
+        const GraphValue normal = build.geometry(gpu::GRAPH_NORMAL, gpu::GRAPH_WORLD);
+        const GraphValue turned =
+            build.op(gpu::GRAPH_ROTATE, normal, GraphValue(degrees), GraphValue(glm::vec4(0, 1, 0, 0)));
+        desc.openPbr[In::GeometryCoatNormal] = build.input(turned, openPbrDefault(In::GeometryCoatNormal));
+        desc.graph = build.graph();
+        return desc;
+    };
+    Settings settings;
+    settings.samples = 16;
+    Stage stage(settings);
+    const auto wall = uint32_t(stage.add(quadMesh(), coated(-30.f)));
+    LightDesc lamp; // at 60 degrees to the right of the wall's middle
+    lamp.kind = LightKind::Sphere;
+    lamp.radius = 2.f;
+    lamp.transform = glm::translate(glm::dmat4(1.0), glm::dvec3(8.66, 0, 5));
+    stage.add(lamp);
+    stage.edit.setCamera(lookAt({0, 0, 20}, {0, 0, 0}, 1));
+    stage.film(8, 8);
+    stage.render();
+    // Fresnel's equations at 30 degrees for an index of 1.6, and a radiance of 1.
+    EXPECT_NEAR(mean(stage.color()).y, 0.05495f, 0.0005f);
+    stage.edit.setMaterial(MaterialId(wall - 1), coated(30.f)); // the id that was made before
+    stage.render();
+    EXPECT_LT(mean(stage.color()).y, 1e-4f);
+}
+
 /// A primvar gives the same medium as a constant, and a dense one is another.
 TEST(OpenPbrPicture, SubsurfaceRadiusMayVary) {
     const auto material = [](float radius) {

@@ -148,10 +148,11 @@ TEST(MaterialNetwork, openPbrInputsOfEveryKind) {
     n.connect("texture", "rgb", "surface", "base_color");
     n.connect("texture", "g", "surface", "specular_roughness");
     n.connect("reader", "result", "surface", "base_metalness");
+    n.connect("texture", "rgb", "surface", "geometry_coat_normal");
     const auto desc = n.desc();
     ASSERT_TRUE(desc);
     EXPECT_EQ(desc->model, hipr::MaterialModel::OpenPbr);
-    EXPECT_EQ(desc->openPbr.size(), 5u);
+    EXPECT_EQ(desc->openPbr.size(), 6u);
     using In = hipr::OpenPbrInput;
     EXPECT_EQ(openPbrInput(*desc, In::CoatWeight).constant.x, 0.5f);
     EXPECT_EQ(openPbrInput(*desc, In::GeometryThinWalled).constant.x, 1.f);
@@ -159,6 +160,8 @@ TEST(MaterialNetwork, openPbrInputsOfEveryKind) {
     EXPECT_EQ(openPbrInput(*desc, In::BaseColor).channel, hipr::Channel::Rgb);
     EXPECT_EQ(openPbrInput(*desc, In::SpecularRoughness).channel, hipr::Channel::G);
     EXPECT_EQ(openPbrInput(*desc, In::BaseMetalness).primvar, "wear");
+    EXPECT_EQ(openPbrInput(*desc, In::GeometryCoatNormal).source,
+              hipr::MaterialInput::Source::Graph); // to world space
     EXPECT_EQ(openPbrInput(*desc, In::CoatIor).constant.x, 1.6f); // the specification's default
 }
 

@@ -68,7 +68,8 @@ TEST(MtlxSurfaces, StandardSurfaceArithmetic) {
                       {"subsurface_radius", glm::vec4(4.f, 2.f, 1.f, 0.f)},
                       {"subsurface_scale", glm::vec4(0.5f)},
                       {"transmission_dispersion", glm::vec4(30.f)},
-                      {"specular_rotation", glm::vec4(0.5f)}};
+                      {"specular_rotation", glm::vec4(0.25f)},
+                      {"transmission_extra_roughness", glm::vec4(0.5f)}};
     const MaterialDesc desc = node.desc(Standard);
     EXPECT_NEAR(number(desc, In::SpecularWeight), 0.2f * 0.75f + 0.25f, 1e-6f);
     EXPECT_EQ(number(desc, In::ThinFilmWeight), 1.f);
@@ -78,7 +79,12 @@ TEST(MtlxSurfaces, StandardSurfaceArithmetic) {
     EXPECT_EQ(glm::vec3(openPbrInput(desc, In::SubsurfaceRadiusScale).constant), glm::vec3(1.f, 0.5f, 0.25f));
     EXPECT_EQ(number(desc, In::TransmissionDispersionScale), 1.f);
     EXPECT_EQ(number(desc, In::TransmissionDispersionAbbeNumber), 30.f);
-    EXPECT_EQ(node.told, std::vector<std::string>{"input 'specular_rotation' has no effect"});
+    const MaterialInput tangent = openPbrInput(desc, In::GeometryTangent);
+    ASSERT_EQ(tangent.source, MaterialInput::Source::Graph);
+    EXPECT_EQ(desc.graph.nodes.at(tangent.node).op, gpu::GRAPH_ROTATE);
+    EXPECT_EQ(desc.graph.nodes.at(tangent.node).operands[1], GraphValue(90.f));
+    EXPECT_EQ(openPbrInput(desc, In::GeometryCoatTangent).source, MaterialInput::Source::Constant);
+    EXPECT_EQ(node.told, std::vector<std::string>{"input 'transmission_extra_roughness' has no effect"});
 }
 
 TEST(MtlxSurfaces, ArithmeticOnWhatDrivesAnInputIsAGraph) {

@@ -7,7 +7,7 @@ layout(local_size_x = 64) in;
 
 struct SurfaceParameters {
     uint64_t constants, albedoTable, openPbrTable;
-    vec3 ng, ns;
+    vec3 ng, ns, coatNormal, tangent;
     uint flags, frontFacing;
 };
 
@@ -39,7 +39,11 @@ Surface makeSurface(SurfaceParameters p, vec3 wo) {
     s.aroundIor = 1.0;
     s.albedoTable = p.albedoTable;
     s.openPbrTable = p.openPbrTable;
-    setLobes(s, constantInputs(p.constants, (p.flags & MATERIAL_OPENPBR) != 0u), p.flags, dot(s.ns, wo));
+    MaterialInputs inputs = constantInputs(p.constants, (p.flags & MATERIAL_OPENPBR) != 0u);
+    inputs.coatNormal = p.coatNormal;
+    inputs.specularTangent = p.tangent;
+    setDirections(s, inputs, wo);
+    setLobes(s, inputs, p.flags, wo);
     return s;
 }
 

@@ -27,7 +27,7 @@ const Kernel& kernel() {
 /// SurfaceParameters as bsdf.comp has them.
 struct KernelParameters {
     VkDeviceAddress constants, albedoTable, openPbrTable;
-    glm::vec3 ng, ns;
+    glm::vec3 ng, ns, coatNormal, tangent;
     uint32_t flags, frontFacing;
 };
 
@@ -63,8 +63,9 @@ std::vector<Outcome> runBsdf(const SurfaceParameters& parameters, const std::vec
     else
         row.constants = previewRow(parameters), row.flags = parameters.flags;
     const Buffer constants = toDevice(row.constants);
-    const KernelParameters p{constants.address(), albedo.address(), openPbrAlbedo.address(), parameters.ng,
-                             parameters.ns,       row.flags,        parameters.frontFacing};
+    const KernelParameters p{constants.address(), albedo.address(), openPbrAlbedo.address(),
+                             parameters.ng,       parameters.ns,    parameters.coatNormal,
+                             parameters.tangent,  row.flags,        parameters.frontFacing};
     const Buffer parameterBuffer = testDevice().createFrom(&p, 1, "test");
     const Buffer woBuffer = toDevice(wo), wiBuffer = toDevice(wi), uBuffer = toDevice(u);
     const Buffer outcomes = emptyBuffer<Outcome>(wi.size());

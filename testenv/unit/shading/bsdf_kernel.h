@@ -23,6 +23,7 @@ struct SurfaceParameters {
     uint32_t flags = 0;                  ///< of a UsdPreviewSurface
     std::optional<MaterialDesc> openPbr; ///< instead of all above
     glm::vec3 ng{0.f, 0.f, 1.f}, ns{0.f, 0.f, 1.f};
+    glm::vec3 coatNormal{0.f}, tangent{0.f}; ///< 0: the surface's own
     uint32_t frontFacing = 1;
 };
 

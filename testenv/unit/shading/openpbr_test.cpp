@@ -29,6 +29,16 @@ void expectWhite(const SurfaceParameters& parameters, const ::testing::Message& 
     }
 }
 
+/// A smooth coat on nothing, with a normal of its own.
+SurfaceParameters tiltedCoat(double roughness) {
+    SurfaceParameters p = openPbr({{In::BaseWeight, grey(0)},
+                                   {In::SpecularWeight, grey(0)},
+                                   {In::CoatWeight, grey(1)},
+                                   {In::CoatRoughness, grey(roughness)}});
+    p.coatNormal = glm::normalize(glm::vec3(0.3f, -0.2f, 1.f));
+    return p;
+}
+
 std::vector<NamedSurface> surfaces() {
     const auto orange = glm::vec3(0.8f, 0.5f, 0.2f);
     return {
@@ -52,6 +62,8 @@ std::vector<NamedSurface> surfaces() {
                                              {In::CoatRoughness, grey(0.4)},
                                              {In::CoatRoughnessAnisotropy, grey(0.8)},
                                              {In::BaseMetalness, grey(1)}})},
+        {"tilted coat", with(tiltedCoat(0.4), {{In::BaseWeight, grey(1)}, {In::SpecularWeight, grey(1)}})},
+        {"tilted stretched coat", with(tiltedCoat(0.6), {{In::CoatRoughnessAnisotropy, grey(0.8)}})},
         {"fuzz 0.5", openPbr({{In::FuzzWeight, grey(1)}, {In::FuzzColor, orange}})},
         {"fuzz 0 on a coat", openPbr({{In::FuzzWeight, grey(0.8)},
                                       {In::FuzzRoughness, grey(0)},
@@ -95,6 +107,45 @@ TEST(OpenPbr, SamplesFollowThePdf) {
         for (const NamedSurface& surface : list)
             for (const double cosine : {0.95, 0.35})
                 expectSamplesFollowThePdf(surface, cosine);
+}
+
+/// A mirror of the coat's own: where it reflects to, and how much.
+TEST(OpenPbr, CoatsHaveANormalOfTheirOwn) {
+    const SurfaceParameters p = tiltedCoat(0.0);
+    const glm::dvec3 n(p.coatNormal);
+    for (const double cosine : {0.95, 0.5}) {
+        const glm::vec3 wo = direction(cosine, 0.7);
+        const glm::dvec3 reflected = 2.0 * glm::dot(n, glm::dvec3(wo)) * n - glm::dvec3(wo);
+        size_t found = 0;
+        for (const Outcome& o : runBsdf(p, wo, std::vector<glm::vec3>(256, glm::vec3(0, 0, 1)))) {
+            if (o.failed() || o.lobe != 0) continue;
+            ++found;
+            EXPECT_LT(glm::length(glm::dvec3(o.sampled) - reflected), 0.01);
+        }
+        EXPECT_GT(found, 200u);
+        // Fresnel's equations for an index of 1.6.
+        const double c = glm::dot(n, glm::dvec3(wo)), g = std::sqrt(1.6 * 1.6 - 1.0 + c * c);
+        const double s = (g - c) / (g + c), t = (c * (g + c) - 1.0) / (c * (g - c) + 1.0);
+        EXPECT_NEAR(sampledAlbedo(p, wo, 1 << 12).y, 0.5 * s * s * (1.0 + t * t), 2e-3) << cosine;
+    }
+}
+
+/// Stretched highlights are wide across the tangent asked for.
+TEST(OpenPbr, HighlightsFollowTheTangent) {
+    SurfaceParameters p = openPbr({{In::BaseMetalness, grey(1)},
+                                   {In::SpecularRoughness, grey(0.5)},
+                                   {In::SpecularRoughnessAnisotropy, grey(0.9)}});
+    const auto spread = [&](const glm::vec3& tangent) {
+        p.tangent = tangent;
+        glm::dvec2 sum(0.0);
+        for (const Outcome& o :
+             runBsdf(p, glm::vec3(0, 0, 1), std::vector<glm::vec3>(1024, glm::vec3(0, 0, 1))))
+            if (!o.failed()) sum += glm::abs(glm::dvec2(o.sampled));
+        return sum;
+    };
+    const glm::dvec2 alongX = spread({1, 0, 0.5f}), alongY = spread({0, 1, 0});
+    EXPECT_GT(alongX.x, 3.0 * alongX.y);
+    EXPECT_GT(alongY.y, 3.0 * alongY.x);
 }
 
 /// Base, metal and fuzz; layers below a coat or fuzz are scaled as the specification suggests, which is not

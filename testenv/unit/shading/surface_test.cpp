@@ -210,7 +210,7 @@ TEST(OpenPbrMaterials, WhatHasNoEffectIsTold) {
                                {OpenPbrInput::GeometryTangent, openPbrDefault(OpenPbrInput::GeometryTangent)},
                                {OpenPbrInput::BaseWeight, constantInput(3.f)}}))
         .look({0.5f, 0.5f});
-    EXPECT_EQ(messageLog().count("/openpbr", "geometry_coat_normal: it has no effect"), 1);
+    EXPECT_EQ(messageLog().count("/openpbr", "geometry_coat_normal: it is used from graphs alone"), 1);
     EXPECT_EQ(messageLog().count("/openpbr", "clamped: base_weight"), 1);
     EXPECT_EQ(messageLog().entries.size(), 2u); // geometry_tangent has its default
     messageLog().entries.clear();
