@@ -27,12 +27,12 @@ struct ProductGroup {
     std::string conformPolicy;
     GfVec4f dataWindow = {0, 0, 1, 1};
     float pixelAspect = 1;
-    bool motionBlur = true;
+    bool motionBlur = true, depthOfField = true;
     std::vector<ProductFile> files;
     bool sameView(const ProductGroup& o) const {
         return camera == o.camera && width == o.width && height == o.height &&
                conformPolicy == o.conformPolicy && dataWindow == o.dataWindow &&
-               pixelAspect == o.pixelAspect && motionBlur == o.motionBlur;
+               pixelAspect == o.pixelAspect && motionBlur == o.motionBlur && depthOfField == o.depthOfField;
     }
 };
 
@@ -125,9 +125,7 @@ ProductGroup Reader::view(const UsdRenderSettingsBase& product) const {
     }
     group.motionBlur = !isOn("disableMotionBlur", product, _settings) && // before 23.05 by another name
                        !isOn("instantaneousShutter", product, _settings);
-    if (isOn("disableDepthOfField", product, _settings))
-        printWarning(path +
-                     ": disableDepthOfField is not followed; an fStop of 0 has all of the picture sharp");
+    group.depthOfField = !isOn("disableDepthOfField", product, _settings);
     return group;
 }
 
@@ -220,6 +218,7 @@ void look(Options& options, const ProductGroup& view) {
     options.conformPolicy = view.conformPolicy;
     options.pixelAspect = view.pixelAspect;
     if (!view.motionBlur) options.sceneSettings.emplace_back("enableMotionBlur", "0");
+    if (!view.depthOfField) options.sceneSettings.emplace_back("enableDepthOfField", "0");
 }
 
 /// One recording writes these files.

@@ -163,14 +163,14 @@ void RendererImpl::retireHits(Cause cause) {
 /// Looks for the tiles in which an edit shows. `regions`: where objects that changed were and are.
 void RendererImpl::startSearch(const ChangedSet& changed, const std::vector<WorldBox>& regions) {
     if (!_scene.camera()) return;
-    if (const std::optional<gpu::CameraRecord> camera = cameraRecord(*_scene.camera()))
+    if (const std::optional<gpu::CameraRecord> camera = takingCamera())
         _edits.start(_settings, *camera, changed, regions);
 }
 
 /// Tells the path tracer what to render. False: there is nothing to render.
 bool RendererImpl::setup() {
     if (!_scene.camera() || _film.pixels() == 0) return false;
-    const std::optional<gpu::CameraRecord> camera = cameraRecord(*_scene.camera());
+    const std::optional<gpu::CameraRecord> camera = takingCamera();
     if (!camera && !_cameraReported)
         _device->messages()(Severity::Error, "",
                             "the camera's matrices cannot be inverted; nothing is rendered");

@@ -78,6 +78,9 @@ private:
     bool renderSamples();
     void learnFromPilots(const std::vector<gpu::TileWork>& tiles);
     float cameraExposure() const;
+    /// The camera that samples are taken with: as the settings want it. None: its matrices cannot be
+    /// inverted.
+    std::optional<gpu::CameraRecord> takingCamera() const;
     void scaleColors(float* pixels, size_t components, float scale) const;
     uint32_t batchPaths() const { return _internals.batchPaths ? _internals.batchPaths : _batch.paths(); }
     uint32_t samplePaths() const;

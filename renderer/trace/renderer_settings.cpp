@@ -3,6 +3,7 @@
 
 #include <tbb/info.h>
 
+#include "renderer/scene/camera.h"
 #include "renderer/trace/renderer_impl.h"
 
 namespace hipr {
@@ -48,6 +49,12 @@ void RendererImpl::limitThreads(int limit) {
     if (threads == _arena.max_concurrency()) return;
     _arena.terminate();
     _arena.initialize(threads);
+}
+
+std::optional<gpu::CameraRecord> RendererImpl::takingCamera() const {
+    std::optional<gpu::CameraRecord> camera = cameraRecord(*_scene.camera());
+    if (camera && !_settings.depthOfField) camera->lensX = camera->lensY = glm::vec3(0.f);
+    return camera;
 }
 
 void RendererImpl::selectTraversal() {

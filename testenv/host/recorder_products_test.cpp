@@ -177,6 +177,33 @@ def Camera "Open" {
     EXPECT_LT(blurredPixels(ImageFile(file("still.exr"))), blurred / 3);
 }
 
+TEST_F(RecorderProducts, MaySwitchDepthOfFieldOff) {
+    const std::string blurry = R"(def Cube "Far" {
+    double size = 4
+    double3 xformOp:translate = (100, 0, 0)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def Camera "Near" {
+    float fStop = 10
+    float focalLength = 50
+    float focusDistance = 5
+    double3 xformOp:translate = (100, 0, 30)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+)";
+    const std::string view = "    rel camera = </Render/Near>\n";
+    const Outcome outcome =
+        recorded(blurry + color + product("A", named("blurred.exr"), "</Render/color>", view) +
+                     product("B", named("sharp.exr"), "</Render/color>",
+                             view + "    uniform bool disableDepthOfField = 1") +
+                     settings("</Render/A>, </Render/B>"),
+                 {});
+    ASSERT_EQ(outcome.code, 0) << outcome.text;
+    const size_t blurred = blurredPixels(ImageFile(file("blurred.exr")));
+    EXPECT_GT(blurred, 100u);
+    EXPECT_LT(blurredPixels(ImageFile(file("sharp.exr"))), blurred / 3);
+}
+
 TEST_F(RecorderProducts, TheCommandLineWins) {
     const std::string prims =
         color + product("A", named("a.exr"), "</Render/color>") +
