@@ -6,6 +6,7 @@
 #include "pxr/base/gf/vec3f.h"
 #include "pxr/base/gf/vec4f.h"
 #include "pxr/imaging/hd/tokens.h"
+#include "renderer/api/denoise.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
 
@@ -28,11 +29,21 @@ std::optional<hipr::AovRequest> cryptomatteRequest(std::string const& name) {
     return std::nullopt;
 }
 
+TfToken const& denoisedToken() {
+    static const TfToken token("denoised");
+    return token;
+}
+
 } // namespace
+
+bool isDenoised(TfToken const& name) {
+    return name == denoisedToken();
+}
 
 std::optional<hipr::AovRequest> aovRequest(TfToken const& name) {
     static const std::unordered_map<TfToken, AovKind, TfToken::HashFunctor> kinds = {
         {HdAovTokens->color, AovKind::Color},
+        {denoisedToken(), AovKind::Color},
         {HdAovTokens->depth, AovKind::Depth},
         {HdAovTokens->cameraDepth, AovKind::CameraDepth},
         {HdAovTokens->normal, AovKind::Normal},
@@ -83,8 +94,14 @@ HdAovDescriptor aovDescriptor(TfToken const& name) {
     case AovKind::CryptoMaterial:
     case AovKind::CryptoAsset:
         return HdAovDescriptor(HdFormatFloat32Vec4, false, VtValue(GfVec4f(0.f)));
-    case AovKind::Color:
-        return HdAovDescriptor(HdFormatFloat32Vec4, true, VtValue(GfVec4f(0.f)));
+    case AovKind::Color: {
+        HdAovDescriptor color(HdFormatFloat32Vec4, true, VtValue(GfVec4f(0.f)));
+        const std::string missing = isDenoised(name) ? hipr::Denoiser::missing() : "";
+        if (!missing.empty()) { // so that a host can say so before hours of rendering
+            color.aovSettings[TfToken("hipr:missing")] = VtValue(missing);
+        }
+        return color;
+    }
     case AovKind::Depth:
         return HdAovDescriptor(HdFormatFloat32, false, VtValue(1.f));
     case AovKind::CameraDepth:

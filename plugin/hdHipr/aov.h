@@ -23,6 +23,9 @@ constexpr std::pair<const char*, hipr::AovKind> cryptomatteKinds[] = {
 /// The renderer's AOV of that name, or nothing for a name HiPR does not know (shader:*, edgeId...).
 std::optional<hipr::AovRequest> aovRequest(TfToken const& name);
 
+/// Whether the AOV is color without noise: see Denoising. Its aovRequest() is that of color.
+bool isDenoised(TfToken const& name);
+
 /// The preferred format and clear value of an AOV. Unknown names get a usable descriptor as well.
 HdAovDescriptor aovDescriptor(TfToken const& name);
 

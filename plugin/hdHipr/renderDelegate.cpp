@@ -35,6 +35,7 @@ namespace {
 const char* const deviceKey = "hipr:device";
 const char* const everyBatchKey = "hipr:publishEveryBatch";
 const char* const sceneDumpKey = "hipr:sceneDump";
+const char* const publishNowKey = "hipr:publishNow";
 const char* const cryptomatteKey = "hipr:cryptomatte:"; // and the AOV: the names of its manifest
 const char* const dataWindowKey = "hipr:dataWindow";
 
@@ -235,6 +236,10 @@ VtValue HdHiprRenderDelegate::GetRenderSetting(TfToken const& key) const {
         _param->loop()->whenIdle([&](hipr::Renderer& renderer) { renderer.dumpScene(text); });
         return VtValue(text.str());
     }
+    if (key == publishNowKey && _param->canRender()) {
+        _param->loop()->publishNow();
+        return VtValue(true);
+    }
     for (auto const& [stem, kind] : cryptomatteKinds) {
         if (_param->canRender() && key == std::string(cryptomatteKey) + stem) {
             VtArray<std::string> names;
@@ -273,6 +278,7 @@ VtDictionary HdHiprRenderDelegate::GetRenderStats() const {
     stats["hipr:changedElements"] = loop.changedElements;
     stats["hipr:lastChange"] = hipr::toString(loop.lastChange);
     stats["hipr:pictures"] = _param->loop()->pictures();
+    stats["hipr:denoiseTime"] = loop.denoiseSeconds;
     stats["hipr:failed"] = int(progress.failed);
     stats["hipr:device"] = _param->loop()->renderer().device().name;
     stats["peakMemory"] = peakMemory();

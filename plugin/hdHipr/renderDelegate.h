@@ -43,7 +43,8 @@ public:
     /// Settings of the table restart the picture when, and only when, their value changes. Other keys are
     /// kept for GetRenderSetting and have no effect; unknown keys that begin with `hipr:` are reported.
     /// Some keys are no settings but doors for recorders and tests: `hipr:publishEveryBatch` (bool; see
-    /// RenderLoop); `hipr:sceneDump`, which reads as the text of hipr::Renderer::dumpScene();
+    /// RenderLoop); `hipr:publishNow`, which reads as true once the buffers, the denoised one too, show all
+    /// samples there are; `hipr:sceneDump`, which reads as the text of hipr::Renderer::dumpScene();
     /// `hipr:cryptomatte:CryptoObject` and its like, which read as hipr::Renderer::cryptomatteNames(); and
     /// `hipr:dataWindow` (GfVec4f: xmin, ymin, xmax, ymax), the part of the camera's picture that fills the
     /// buffers, in place of what the viewport says, for hosts whose Hydra has no framing.
@@ -54,7 +55,8 @@ public:
 
     /// percentDone (0..100), numCompletedSamples, totalClockTime (seconds), hipr:paths, hipr:rays,
     /// hipr:device, peakMemory (bytes of this process) and hipr:memory:<kind> (bytes). hipr:pictures counts
-    /// what has been published to the buffers.
+    /// what has been published to the buffers, hipr:denoiseTime is the seconds that the last denoised picture
+    /// took.
     VtDictionary GetRenderStats() const override;
 
     bool IsPauseSupported() const override { return true; }

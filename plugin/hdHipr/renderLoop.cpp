@@ -30,6 +30,24 @@ void compositeOver(std::vector<float>& rgba, GfVec4f const& background) {
     }
 }
 
+/// What a film must have to fill the targets.
+std::vector<hipr::AovRequest> aovsFor(std::vector<AovTarget> const& targets) {
+    std::vector<hipr::AovRequest> aovs;
+    const auto add = [&](hipr::AovRequest const& aov) {
+        if (std::find(aovs.begin(), aovs.end(), aov) == aovs.end()) {
+            aovs.push_back(aov);
+        }
+    };
+    for (AovTarget const& target : targets) {
+        if (target.denoised) {
+            std::for_each(denoisingAovs().begin(), denoisingAovs().end(), add);
+        } else if (target.aov) {
+            add(*target.aov);
+        }
+    }
+    return aovs;
+}
+
 } // namespace
 
 RenderLoop::RenderLoop(std::unique_ptr<hipr::Renderer> renderer) : _renderer(std::move(renderer)) {
@@ -132,7 +150,12 @@ LoopStats RenderLoop::stats() const {
         progress = {}; // what is told of is the picture asked for, not the one before
         progress.samplesTotal = total;
     }
-    return {progress, _memory, _changes, _lastChanged.elements.size(), _lastChanged.kinds()};
+    return {progress,
+            _memory,
+            _changes,
+            _lastChanged.elements.size(),
+            _lastChanged.kinds(),
+            _denoising.seconds()};
 }
 
 hipr::ChangedSet RenderLoop::lastChanged() const {
@@ -177,12 +200,13 @@ void RenderLoop::renderRequests() {
         if (_stopped.load()) {
             break;
         }
+        showDenoised();
         const bool more = _renderer->renderBatch();
         const bool done = !more && !_renderer->cancelled();
         if (publish(done) && _everyBatch.load()) {
             waitUntilTaken();
         }
-        if (done && finish()) {
+        if (done && finishDenoising() && finish()) {
             break;
         }
     }
@@ -202,19 +226,14 @@ void RenderLoop::pickUp() {
         _renderer->resume();
         edit.append(_edit);
         settings = _settings;
+        _threadLimit = settings.threadLimit;
+        _denoisedShown &= _shownFrame.rect == _frame.rect && _shownFrame.targets == _frame.targets;
         _shownFrame = _frame;
         _firstHitsShown = false;
         _publishedPaths = 0;
         film.width = uint32_t(std::max(_frame.rect.width, 0));
         film.height = uint32_t(std::max(_frame.rect.height, 0));
-        film.aovs.clear();
-        for (AovTarget const& target : _frame.targets) {
-            const bool wanted =
-                target.aov && std::find(film.aovs.begin(), film.aovs.end(), *target.aov) == film.aovs.end();
-            if (wanted) {
-                film.aovs.push_back(*target.aov);
-            }
-        }
+        film.aovs = aovsFor(_frame.targets);
     }
     hipr::ChangedSet changed = _renderer->setSettings(settings);
     for (hipr::ChangedSet const& more : {_renderer->setFilm(film), _renderer->commit(edit)}) {
@@ -241,7 +260,11 @@ bool RenderLoop::publish(bool last) {
         return false;
     }
     std::lock_guard<std::mutex> lock(_publishMutex);
+    denoiseMeanwhile();
     for (AovTarget const& target : _shownFrame.targets) {
+        if (target.denoised && (_denoisedShown || !target.buffer->taken())) {
+            continue; // what follows is better, or nobody looks
+        }
         const bool firstHit = target.aov && !changesWithSamples(target.aov->kind);
         if (!target.aov || (firstHit && (_firstHitsShown || !progress.firstHitsDone))) {
             continue;
@@ -283,10 +306,15 @@ void RenderLoop::publishTarget(AovTarget const& target) {
         return;
     }
     if (target.aov->kind == hipr::AovKind::Color) {
-        compositeOver(_scratch, clearComponents(target.clearValue));
+        return writeColor(target, _scratch);
     }
     target.buffer->write(_shownFrame.rect, _scratch.data(), format.components, format.integer,
                          target.clearValue);
+}
+
+void RenderLoop::writeColor(AovTarget const& target, std::vector<float>& pixels) {
+    compositeOver(pixels, clearComponents(target.clearValue));
+    target.buffer->write(_shownFrame.rect, pixels.data(), 4, false, target.clearValue);
 }
 
 /// Declares the picture converged unless a newer request has come in. Returns whether there is nothing left

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "plugin/hdHipr/compat.h"
+#include "plugin/hdHipr/denoising.h"
 #include "pxr/imaging/hd/renderThread.h"
 #include "renderer/api/renderer.h"
 
@@ -27,8 +28,10 @@ struct AovTarget {
     HdHiprRenderBuffer* buffer = nullptr;
     unsigned int allocation = 0; ///< the buffer's content is new when this changes
     VtValue clearValue;
+    bool denoised = false; ///< color without noise
     bool operator==(AovTarget const& o) const {
-        return aov == o.aov && buffer == o.buffer && allocation == o.allocation && clearValue == o.clearValue;
+        return aov == o.aov && buffer == o.buffer && allocation == o.allocation &&
+               clearValue == o.clearValue && denoised == o.denoised;
     }
 };
 
@@ -46,6 +49,7 @@ struct LoopStats {
     uint64_t changes = 0;       ///< requests so far that changed something
     size_t changedElements = 0; ///< elements that the last of them changed, and how
     hipr::Change lastChange = hipr::Change::None;
+    double denoiseSeconds = 0; ///< that the last denoised picture took
 };
 
 /// Owns the renderer. Hydra's threads hand over requests and never wait for rendering; the render thread
@@ -74,6 +78,9 @@ public:
     /// Lets `look` see the renderer with all edits so far. Rendering stops meanwhile.
     void whenIdle(std::function<void(hipr::Renderer&)> const& look);
 
+    /// Brings all buffers up to date, the denoised one too, although more samples are to come.
+    void publishNow();
+
     /// Wakes the render thread when there is something to render.
     void kick();
 
@@ -100,6 +107,12 @@ private:
     bool publish(bool last);
     void waitUntilTaken();
     void publishTarget(AovTarget const& target);
+    void writeColor(AovTarget const& target, std::vector<float>& pixels);
+    bool wantsDenoised();
+    void startDenoising();
+    void denoiseMeanwhile();
+    bool showDenoised();
+    bool finishDenoising();
     bool finish();
     void converge();
     void changed();
@@ -114,7 +127,7 @@ private:
     hipr::MemoryReport _memory;
     hipr::ChangedSet _lastChanged;
     uint64_t _changes = 0;
-    uint64_t _committedVersion = 0; ///< the request that the renderer has got
+    uint64_t _committedVersion = 0;             ///< the request that the renderer has got
     std::atomic<uint64_t> _version{0};          ///< number of the newest request
     std::atomic<uint64_t> _convergedVersion{0}; ///< the request that was rendered to the end last
 
@@ -122,6 +135,9 @@ private:
     Frame _shownFrame;
     std::vector<float> _scratch;
     bool _firstHitsShown = false;
+    Denoising _denoising;        ///< render thread only
+    bool _denoisedShown = false; ///< the buffers hold a denoised picture, of this scene or an earlier one
+    int _threadLimit = 0;
     std::chrono::steady_clock::time_point _lastPublish;
     uint64_t _publishedPaths = 0; ///< traced when the last picture was published
 

@@ -91,7 +91,8 @@ void HdHiprRenderPass::_Execute(HdRenderPassStateSharedPtr const& state, TfToken
                      "AOV '" + binding.aovName.GetString() + "' is bound to no render buffer of HiPR");
             continue;
         }
-        targets.push_back({aovRequest(binding.aovName), buffer, buffer->allocation(), binding.clearValue});
+        targets.push_back({aovRequest(binding.aovName), buffer, buffer->allocation(), binding.clearValue,
+                           isDenoised(binding.aovName)});
         width = std::max(width, int(buffer->GetWidth()));
         height = std::max(height, int(buffer->GetHeight()));
     }

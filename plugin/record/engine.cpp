@@ -273,6 +273,16 @@ void Engine::publishEveryBatch() {
     _impl->delegate->SetRenderSetting(TfToken("hipr:publishEveryBatch"), VtValue(true));
 }
 
+void Engine::publishNow() {
+    _impl->delegate->GetRenderSetting(TfToken("hipr:publishNow"));
+}
+
+std::string Engine::whyMissing(const std::string& aov) const {
+    const HdAovDescriptor descriptor = _impl->delegate->GetDefaultAovDescriptor(TfToken(aov));
+    const auto reason = descriptor.aovSettings.find(TfToken("hipr:missing"));
+    return reason != descriptor.aovSettings.end() ? reason->second.GetWithDefault<std::string>() : "";
+}
+
 std::string Engine::sceneDump() const {
     const VtValue text = _impl->delegate->GetRenderSetting(TfToken("hipr:sceneDump"));
     if (!text.IsHolding<std::string>())
@@ -297,7 +307,8 @@ std::vector<std::string> listRenderers() {
 
 std::vector<std::string> listAovs(const Engine& engine) {
     TfTokenVector candidates = HdAovTokens->allTokens;
-    candidates.insert(candidates.end(), {TfToken("albedo"), TfToken("variance"), TfToken("sampleCount")});
+    candidates.insert(candidates.end(),
+                      {TfToken("albedo"), TfToken("denoised"), TfToken("variance"), TfToken("sampleCount")});
     std::vector<std::string> names;
     for (const char* stem : {"CryptoObject", "CryptoMaterial", "CryptoAsset"})
         for (const std::string& layer : expandedAov(stem))

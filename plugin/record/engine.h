@@ -57,6 +57,10 @@ public:
     /// Reads back all AOVs as they are now; the matrices are those of the camera at the current frame. Throws
     /// Failure with ExitRender when a buffer cannot be read.
     Picture read();
+    /// Has read() get all samples of a picture that has not converged, denoised if that is asked for.
+    void publishNow();
+    /// Why the renderer cannot fill an AOV on this machine; empty where it can.
+    std::string whyMissing(const std::string& aov) const;
     PXR_NS::VtDictionary stats() const;
 
     /// HiPR waits after every batch until read() has taken its picture; stats() counts them as

@@ -98,10 +98,10 @@ std::vector<uint8_t> interleaved(const Picture& picture, const OIIO::ImageSpec& 
     return data;
 }
 
-/// The color AOV as RGBA8, opaque over black unless alpha is kept.
+/// The picture as RGBA8, opaque over black unless alpha is kept.
 std::vector<uint8_t> displayPixels(const std::string& path, const Picture& picture, const ViewTransform& view,
                                    bool alpha) {
-    const Layer* color = picture.find("color");
+    const Layer* color = picture.shown();
     if (!color || color->integer || color->components < 3) fail(path, "the picture has no color AOV");
     const size_t pixels = size_t(picture.width) * size_t(picture.height), n = size_t(color->components);
     std::vector<float> rgba(pixels * 4, 1.f);
@@ -147,6 +147,13 @@ const Layer* Picture::find(const std::string& aov) const {
     for (const Layer& layer : layers)
         if (layer.aov == aov) return &layer;
     return nullptr;
+}
+
+const Layer* Picture::shown() const {
+    for (const Layer& layer : layers)
+        if (layer.name == "color") return &layer;
+    const Layer* color = find("color");
+    return color ? color : find("denoised");
 }
 
 std::string imageKind(const std::string& path) {

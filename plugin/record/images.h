@@ -41,6 +41,8 @@ struct Picture {
     std::vector<Layer> layers;
     PictureInfo info;
     const Layer* find(const std::string& aov) const;
+    /// What PNG and JPEG files show: the layer named color, else the AOV color, else denoised.
+    const Layer* shown() const;
 };
 
 /// Kinds of files by extension: "exr", "png", "jpg" (also "jpeg"), in any case; empty for anything else.
@@ -56,9 +58,9 @@ struct DisplayOptions {
     bool alpha = false; ///< PNG: keep the background transparent instead of black
 };
 
-/// Writes all layers (EXR) or the color AOV (PNG, JPEG). The file appears under its name only when it is
-/// complete. Integer layers become UINT channels, in which a miss (-1) reads 4294967295. Throws Failure with
-/// ExitOutput. Layers of 16 bits are clamped to +-65504, as far as they are finite.
+/// Writes all layers (EXR) or the one that is shown (PNG, JPEG). The file appears under its name only when it
+/// is complete. Integer layers become UINT channels, in which a miss (-1) reads 4294967295. Throws Failure
+/// with ExitOutput. Layers of 16 bits are clamped to +-65504, as far as they are finite.
 void writePicture(const std::string& path, const Picture& picture, const DisplayOptions& display);
 
 } // namespace hipr::record

@@ -72,6 +72,17 @@ void parseAovs(const std::string& text, Options& options) {
     }
 }
 
+/// The picture is that without noise; the noisy one stays beside it.
+void showDenoised(Options& options) {
+    const auto has = [&](const char* aov) {
+        return std::find(options.aovs.begin(), options.aovs.end(), aov) != options.aovs.end();
+    };
+    if (!has("color")) throw Failure(ExitUsage, "--denoise shows the AOV color, which --aovs leaves out");
+    if (!has("denoised")) options.aovs.insert(options.aovs.begin(), "denoised");
+    options.layerNames["denoised"] = "color";
+    options.layerNames.emplace("color", "noisy");
+}
+
 void parseSize(const std::string& text, Options& options) {
     int end = 0;
     const int count = std::sscanf(text.c_str(), "%5dx%5d%n", &options.width, &options.height, &end);
@@ -165,6 +176,11 @@ void addPictureOptions(CLI::App& app, Options& options, RawOptions& raw) {
            "AOVs to render, e.g. color,depth,normal,primId,primvars:st [color]. LAYER=AOV names the layer in "
            "EXR files: key=lpe:C.*<L.'key'>")
         ->type_name("LIST")
+        ->group("Picture");
+    app.add_flag(
+           "--denoise", options.denoise,
+           "Write the picture without noise, by Open Image Denoise; EXR files hold the noisy one as the "
+           "layer noisy")
         ->group("Picture");
     app.add_flag("--half", options.half, "Write the colours of EXR files with 16 bits")->group("Picture");
     app.add_option(
@@ -271,6 +287,7 @@ void interpret(const RawOptions& raw, Options& options) {
     if (!raw.frames.empty()) options.frames = parseFrames(raw.frames);
     if (!raw.aovs.empty()) parseAovs(raw.aovs, options);
     if (options.aovs.empty()) throw Failure(ExitUsage, "--aovs: no AOV given");
+    if (options.denoise) showDenoised(options);
     for (const std::string& text : raw.masks)
         for (const std::string& path : splitCommas(text))
             options.mask.push_back(path);

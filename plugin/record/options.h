@@ -49,6 +49,7 @@ struct Options {
     std::string view; ///< "VIEW" or "DISPLAY/VIEW"; empty for the default
     float exposure = 0;
     bool alpha = false;
+    bool denoise = false; ///< pictures show the AOV denoised; those of products say for themselves
 
     std::string renderSettings; ///< RenderSettings prim; empty: the stage's own, where there are no outputs
     /// From render settings, never from the command line.

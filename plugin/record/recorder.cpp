@@ -142,6 +142,8 @@ void Recording::configureRenderer() {
         applySetting(delegate, "threadLimit", std::to_string(_options.threads));
     for (const auto& [key, value] : _options.settings)
         applySetting(delegate, key, value);
+    const std::string missing = _options.denoise ? _engine.whyMissing("denoised") : "";
+    if (!missing.empty()) throw Failure(ExitUsage, "--denoise: " + missing);
     for (const std::string& aov : _options.aovs) {
         if (_engine.hasAov(aov)) continue;
         std::string message = "--aovs: the renderer has no AOV '" + aov + "'. Known AOVs:";
@@ -353,6 +355,8 @@ void Recording::write(FrameReport& report) {
 void Recording::writePictures(FrameReport& report) {
     HdRenderDelegate& delegate = _engine.delegate();
     const bool paused = !report.converged && delegate.IsPauseSupported() && delegate.Pause();
+    const bool denoised = std::count(_options.aovs.begin(), _options.aovs.end(), "denoised") > 0;
+    if (denoised && !report.converged) _engine.publishNow();
     Picture picture = _engine.read();
     if (paused) delegate.Resume();
     for (Layer& layer : picture.layers) {

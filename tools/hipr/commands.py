@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from typing import Iterator, List, Tuple
 
-from . import ctest, environment, openusd, packages, paths, sdk as sdks
+from . import ctest, environment, oidn, openusd, packages, paths, sdk as sdks
 from .console import Timing, duration, say
 from .errors import HiprError
 from .project import Project
@@ -27,6 +27,8 @@ def setup(options) -> None:
     timing = Timing()
     group = packages.FULL if options.full else packages.RENDER
     sdk = sdks.ensure(options.usd, stage, group, jobs=options.jobs, install_packages=not options.no_packages)
+    if options.full:
+        oidn.ensure()
     say(f"Ready in {duration(timing.wall)}: OpenUSD {sdk.version} in {sdk.root}")
     if options.export:
         if not sdk.ours:
@@ -41,6 +43,8 @@ def build(options) -> None:
 
 def render(options) -> int:
     sdk, project = _built(options, openusd.CORE)
+    if "--denoise" in options.arguments:
+        oidn.ensure()
     return _replace(project.program("hiprrecord"), options.arguments, sdk)
 
 
@@ -66,6 +70,7 @@ def usdrecord(options) -> int:
 def test(options) -> int:
     timing = Timing()
     sdk, project = _built(options, openusd.FULL, tests=True)
+    oidn.ensure()
     say(f"Set-up and build took {duration(timing.wall)}. Running the tests")
     selection: List[str] = []
     if options.regex:
@@ -157,6 +162,8 @@ def _environment_lines(sdk: Sdk) -> Iterator[Tuple[str, str]]:
     for name, folders in environment.additions(sdk).items():
         value = os.pathsep.join(shlex.quote(str(folder)) for folder in folders)
         yield name, f"{value}${{{name}:+:${name}}}"
+    for name, value in environment.settings().items():
+        yield name, f"${{{name}:-{shlex.quote(str(value))}}}"
 
 
 def _replace(program: Path, arguments: List[str], sdk: Sdk, *, python: bool = False, display: bool = False) -> int:

@@ -4,7 +4,7 @@ import os
 from pathlib import Path
 from typing import Dict, List, Mapping
 
-from . import paths
+from . import oidn, paths
 from .sdk import Sdk
 
 PLUGINS = Path("plugin") / "usd"  # holds plugInfo.json, which includes those of the plugins below
@@ -22,6 +22,12 @@ def additions(sdk: Sdk, build: Path = paths.BUILD) -> Dict[str, List[Path]]:
     return added
 
 
+def settings() -> Dict[str, Path]:
+    """Variables that name one thing each; a user's own choice stays."""
+    library = oidn.folder() / oidn.LIBRARY
+    return {oidn.VARIABLE: library} if library.exists() else {}
+
+
 def extended(sdk: Sdk, base: Mapping[str, str] = os.environ, build: Path = paths.BUILD) -> Dict[str, str]:
     """`base` with the folders in front. Applying it twice changes nothing."""
     env = dict(base)
@@ -29,4 +35,6 @@ def extended(sdk: Sdk, base: Mapping[str, str] = os.environ, build: Path = paths
         wanted = [str(folder) for folder in folders]
         rest = [part for part in env.get(name, "").split(os.pathsep) if part and part not in wanted]
         env[name] = os.pathsep.join(wanted + rest)
+    for name, value in settings().items():
+        env[name] = env.get(name) or str(value)
     return env
