@@ -205,6 +205,7 @@ bool GpuScene::setOptions(const SceneOptions& options) {
                 _lights.remove(id);
         }
     _options = options;
+    _lights.setShadows(options.shadows);
     _textures.setLimit(options.textureBytes);
     _displacement.setEnabled(options.materials);
     ChangedSet unused; // a setting changed, with all that follows

@@ -17,12 +17,12 @@ namespace hipr {
 
 /// Settings that change what is in the scene.
 struct SceneOptions {
-    bool lights = true, materials = true, domeVisibleToCamera = true, motionBlur = true;
+    bool lights = true, materials = true, domeVisibleToCamera = true, motionBlur = true, shadows = true;
     uint64_t textureBytes = 0; ///< see TextureStore::setLimit()
     bool operator==(const SceneOptions& o) const {
         return lights == o.lights && materials == o.materials &&
                domeVisibleToCamera == o.domeVisibleToCamera && motionBlur == o.motionBlur &&
-               textureBytes == o.textureBytes;
+               shadows == o.shadows && textureBytes == o.textureBytes;
     }
 };
 

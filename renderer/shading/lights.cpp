@@ -55,7 +55,7 @@ struct LightTable::Impl {
     ProfileStore profiles;
     std::map<LightId, Light> lights; ///< those that emit, as far as their description tells
     std::map<uint32_t, Picture> pictures;
-    bool changed = true;
+    bool changed = true, shadowsShown = true;
     uint32_t textureVersion = 0;
     double sceneRadius = -1.0;
     std::vector<MeshLight> meshes;
@@ -179,7 +179,7 @@ void LightTable::Impl::rebuild() {
             if (&groupOf(record) != count || !bindTexture(*light, record, mean)) continue;
             const double share = shape(*light, record, tables.shapings);
             if (!(share > 0.0)) continue;
-            if (light->shadow)
+            if (shadowsShown && light->shadow)
                 tables.shadows.push_back(*light->shadow), record.shadow = tables.shadows.size();
             tables.lights.push_back(record);
             tables.powers.push_back(share * lightPower(record, mean, sceneRadius));
@@ -188,6 +188,11 @@ void LightTable::Impl::rebuild() {
         }
     }
     profiles.dropUnused();
+    if (!shadowsShown) {
+        tables.shadows = {*describeShadow({false}, gpu::NO_INDEX)};
+        for (LightRecord& record : tables.lights)
+            record.shadow = 1;
+    }
     growTree(tables);
     const std::vector<float> sums = spreadChances(tables);
     uploadParts(tables.shapings, &LightRecord::shaping, tables.lights, shapings);
@@ -288,6 +293,11 @@ void LightTable::set(LightId id, const LightDesc& desc, uint32_t group) {
     light.links = CategoryTable::markOf(desc.lightLink);
     _impl->lights[id] = light;
     _impl->changed = true;
+}
+
+void LightTable::setShadows(bool shadows) {
+    _impl->changed |= shadows != _impl->shadowsShown;
+    _impl->shadowsShown = shadows;
 }
 
 void LightTable::remove(LightId id) {

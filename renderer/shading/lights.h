@@ -28,6 +28,9 @@ public:
     void set(LightId id, const LightDesc& desc, uint32_t group = gpu::NO_INDEX);
     void remove(LightId id);
 
+    /// Whether lights, those that are meshes as well, cast shadows; off, all light gets through all objects.
+    void setShadows(bool shadows);
+
     /// The lights that are instances with an emissive material, in the order of the InstanceRecords, of which
     /// there are `instanceCount`.
     void setMeshes(const std::vector<MeshLight>& meshes, uint32_t instanceCount);

@@ -15,6 +15,7 @@ bool samePicture(const Settings& a, const Settings& b) {
     c.samples = b.samples;
     c.timeLimit = b.timeLimit;
     c.threadLimit = b.threadLimit;
+    c.interactive = b.interactive;
     c.traversal = b.traversal; // all traversals report the same hits
     c.mode = b.mode;           // what is rendered first is no part of the picture
     c.tileSize = b.tileSize;
@@ -114,15 +115,16 @@ ChangedSet RendererImpl::setSettings(const Settings& settings) {
         _film.keepSpreads(settings.convergedVariance > 0.f);
         if (_film.keepHits(discovers)) findFirstHits(discovers);
         const std::string traversal = _traversalInUse;
-        const bool options = _scene.setOptions({settings.enableSceneLights, settings.enableSceneMaterials,
-                                                settings.domeLightCameraVisibility, settings.motionBlur,
-                                                uint64_t(settings.textureMemory) << 20});
+        const bool options = _scene.setOptions(
+            {settings.enableSceneLights, settings.enableSceneMaterials, settings.domeLightCameraVisibility,
+             settings.motionBlur, settings.enableShadows, uint64_t(settings.textureMemory) << 20});
         selectTraversal();
         if (options || traversal != _traversalInUse) _scene.commit();
         _setupPending = true;
         _splats.setSettings(settings);
         awaitSplats();
         _schedule.setFloor(settings.floorShare);
+        _batch.setPatience(settings.interactive ? 1.0 : 10.0);
         const bool tiles = tileSize() != _schedule.grid().tileSize;
         if (tiles)
             restart(Cause::Picture);

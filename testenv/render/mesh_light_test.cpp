@@ -119,6 +119,21 @@ TEST(MeshLights, ASquareIsARectLight) {
     EXPECT_LT(byMesh.variance, 1e-3 * varianceWithoutLightSamples(byMesh, 5.0, 64));
 }
 
+TEST(MeshLights, MayCastNoShadows) {
+    Floor free, behind;
+    for (Floor* floor : {&free, &behind})
+        floor->add(quadMesh(), glowing(glm::vec3(5.f)), {ceiling(1.f, 3.f)});
+    behind.add(quadMesh(), matte(glm::vec3(0.f)), {ceiling(2.f, 2.f)});
+    const Shown lit = free.shown();
+    EXPECT_EQ(behind.shown().mean.y, 0.0);
+    Settings settings;
+    settings.samples = 64;
+    settings.maxDepth = 1;
+    settings.enableShadows = false;
+    behind.settings(settings);
+    expectSame(behind.shown(), lit, 0.02); // rays that meet the mesh by chance are still stopped
+}
+
 TEST(MeshLights, ASphereIsASphereLight) {
     Floor mesh(256), light(256);
     const glm::mat4x3 place = placed(scaling(0.5f, 0.5f, 0.5f), 0.4f, 0.2f, 2.f);

@@ -47,6 +47,11 @@ public:
         material.opacityMode = OpacityMode::Presence;
         addObject(("/occluder" + std::to_string(_lastId)).c_str(), material, z, 3.f, std::move(categories));
     }
+    void enableShadows(bool shadows) {
+        Settings settings = makeSettings(64);
+        settings.enableShadows = shadows;
+        stage.settings(settings);
+    }
     glm::vec3 shown(const LightDesc& light) {
         stage.edit.setLight(LightId(900), light);
         stage.render();
@@ -88,6 +93,16 @@ TEST(Shadows, OfALampWithoutAny) {
     light.shadow.color = {0.f, 0.f, 0.f}; // of no shadow
     light.shadow.distance = 100.f;
     expectNear(room.shown(light), glm::vec3(lit()));
+}
+
+/// By a setting, of all lights, and back.
+TEST(Shadows, OfNoLight) {
+    Room room;
+    room.addOccluder(2.f);
+    room.enableShadows(false);
+    expectNear(room.shown(lamp()), glm::vec3(lit()));
+    room.enableShadows(true);
+    EXPECT_EQ(room.shown(lamp()), glm::vec3(0.f));
 }
 
 TEST(Shadows, HaveAColour) {

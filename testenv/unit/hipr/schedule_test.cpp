@@ -106,6 +106,15 @@ TEST(BatchSize, FollowsTheClock) {
     EXPECT_EQ(batch.paths(), hipr::BatchSize::Smallest);
 }
 
+TEST(BatchSize, IsLargerWhereNobodyWatches) {
+    hipr::BatchSize batch(1 << 20);
+    batch.setPatience(10.0);
+    for (int i = 0; i < 20; ++i)
+        batch.report(batch.paths(), 1e-5 * batch.paths());
+    EXPECT_GT(1e-5 * batch.paths(), 3 * hipr::BatchSize::Long);
+    EXPECT_LE(1e-5 * batch.paths(), 10 * hipr::BatchSize::Long);
+}
+
 TEST(BatchSize, FindsItsSizeForAnySpeedAndKeepsIt) {
     for (double perPath = 1e-7; perPath < 1e-5; perPath *= 1.1) {
         hipr::BatchSize batch(1 << 16);
