@@ -70,7 +70,7 @@ std::shared_ptr<const hipr::TriangleMesh> HdHiprBasisCurves::readShape(HdSceneDe
     desc.pointIndices = ints(topology.GetCurveIndices());
     desc.hiddenCurves = ints(topology.GetInvisibleCurves());
     desc.refineLevel = GetDisplayStyle(&delegate).refineLevel;
-    desc.points = toVec3s(delegate.Get(GetId(), HdTokens->points));
+    desc.points = readPoints(delegate);
     desc.primvars = readPrimvars(delegate, [&](HdInterpolation interpolation) {
         switch (interpolation) {
         case HdInterpolationUniform:

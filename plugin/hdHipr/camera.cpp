@@ -76,8 +76,7 @@ void HdHiprCamera::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, H
         _exposure = exposureOf(params, GetId());
         _shutter = {params.get("shutterOpen", 0.0), params.get("shutterClose", 0.0)};
         if (static_cast<HdHiprRenderParam*>(renderParam)->setShutter(GetId(), _shutter)) {
-            delegate->GetRenderIndex().GetChangeTracker().MarkAllRprimsDirty(HdChangeTracker::DirtyTransform |
-                                                                             HdChangeTracker::DirtyPoints);
+            delegate->GetRenderIndex().GetChangeTracker().MarkAllRprimsDirty(hdhipr::sampledBits);
         }
     }
     _motion.clear();

@@ -4,11 +4,13 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pxr/base/gf/matrix4d.h"
 #include "pxr/base/vt/value.h"
 #include "pxr/imaging/hd/changeTracker.h"
+#include "pxr/imaging/hd/extComputationUtils.h"
 #include "pxr/imaging/hd/instancer.h"
 #include "pxr/imaging/hd/light.h"
 #include "pxr/imaging/hd/material.h"
@@ -267,13 +269,32 @@ inline void collectionsChanged([[maybe_unused]] HdRenderIndex& index) {
 #endif
 }
 
-/// Which of the grids of one name a field means. Before 20.11 UsdVol has no such attribute, and asking for it is an error.
+/// Which of the grids of one name a field means. Before 20.11 UsdVol has no such attribute, and asking for it
+/// is an error.
 inline int fieldIndex([[maybe_unused]] HdSceneDelegate* delegate, [[maybe_unused]] SdfPath const& id) {
 #if PXR_VERSION >= 2011
     return VtValue::Cast<int>(delegate->Get(id, TfToken("fieldIndex"))).GetWithDefault(0);
 #else
     return 0;
 #endif
+}
+
+/// What a computed primvar is at several times while the shutter is open. Before 21.05 Hydra has no samples
+/// of what computations read, and there are none.
+inline std::vector<std::pair<float, VtValue>>
+computedSamples([[maybe_unused]] HdSceneDelegate* delegate,
+                [[maybe_unused]] HdExtComputationPrimvarDescriptor const& primvar) {
+    std::vector<std::pair<float, VtValue>> samples;
+#if PXR_VERSION >= 2105
+    constexpr size_t most = 64;
+    HdExtComputationUtils::SampledValueStore<4> values;
+    HdExtComputationUtils::SampleComputedPrimvarValues<4>({primvar}, delegate, most, &values);
+    auto const& sampled = values[primvar.name];
+    for (size_t i = 0; i < sampled.count; ++i) {
+        samples.emplace_back(sampled.times[i], sampled.values[i]);
+    }
+#endif
+    return samples;
 }
 
 /// How the poles of a dome light's texture lie in its own space (DomeLight_1, from 23.11 on).

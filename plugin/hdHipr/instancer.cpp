@@ -63,7 +63,7 @@ bool apply(VtValue const& value, VtIntArray const& indices, std::vector<GfMatrix
     return true;
 }
 
-enum class Part { Translate, Rotate, Scale, Transform };
+using Part = HdHiprInstancer::Part;
 
 bool applyPart(Part part, VtValue const& value, VtIntArray const& indices,
                std::vector<GfMatrix4d>& transforms, bool* complete) {
@@ -104,11 +104,6 @@ constexpr PartName partNames[] = {
     {Part::Scale, "scale", "hydra:instanceScales"},
     {Part::Transform, "instanceTransform", "hydra:instanceTransforms"},
 };
-
-bool isPart(TfToken const& name) {
-    return std::any_of(std::begin(partNames), std::end(partNames),
-                       [&](PartName const& part) { return name == part.name || name == part.newName; });
-}
 
 /// Repeats each value `times` times in place (outer level) or the whole list `times` times (inner level).
 std::vector<float> repeated(std::vector<float> const& values, uint32_t components, size_t times, bool each) {
@@ -177,8 +172,13 @@ void HdHiprInstancer::syncPrimvars(HdDirtyBits dirtyBits) {
     _primvars = std::move(primvars);
 }
 
-bool HdHiprInstancer::placesInstances(TfToken const& primvar) {
-    return isPart(primvar);
+std::optional<HdHiprInstancer::Part> HdHiprInstancer::partOf(TfToken const& primvar) {
+    for (PartName const& part : partNames) {
+        if (primvar == part.name || primvar == part.newName) {
+            return part.part;
+        }
+    }
+    return std::nullopt;
 }
 
 std::vector<GfMatrix4d> HdHiprInstancer::nested(std::vector<GfMatrix4d> const& inner,
@@ -220,7 +220,7 @@ std::vector<GfMatrix4d> HdHiprInstancer::localTransforms(VtIntArray const& indic
 std::vector<hipr::Primvar> HdHiprInstancer::localPrimvars(VtIntArray const& indices) const {
     std::vector<hipr::Primvar> result;
     for (auto const& [name, value] : _primvars) {
-        if (isPart(name)) {
+        if (partOf(name)) {
             continue;
         }
         const std::optional<hipr::Primvar> all = toPrimvar(name, value);
@@ -310,10 +310,10 @@ bool LinkState::sync(HdSceneDelegate& delegate, SdfPath const& id, SdfPath const
 }
 
 hipr::InstancesDesc hdhipr::readInstances(HdSceneDelegate& delegate, SdfPath const& id,
-                                          SdfPath const& instancerId, bool sampled) {
+                                          SdfPath const& instancerId, Sampling const& sampling) {
     const GfMatrix4d own = delegate.GetTransform(id);
     Samples<GfMatrix4d> ownSamples;
-    if (sampled) {
+    if (sampling.open()) {
         ownSamples = sampleTransform(delegate, id);
     }
     if (ownSamples.values.empty()) {
@@ -326,8 +326,8 @@ hipr::InstancesDesc hdhipr::readInstances(HdSceneDelegate& delegate, SdfPath con
     } else if (HdInstancer* instancer = delegate.GetRenderIndex().GetInstancer(instancerId)) {
         auto* const placing = static_cast<HdHiprInstancer*>(instancer);
         HdHiprInstancer::Instances instances = placing->instances(id);
-        if (sampled) {
-            levels = placing->sampleLevels(id);
+        if (sampling.open()) {
+            levels = placing->sampleLevels(id, sampling);
         }
         desc.transforms.reserve(instances.transforms.size());
         for (GfMatrix4d const& transform : instances.transforms) {

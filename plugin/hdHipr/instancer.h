@@ -3,10 +3,12 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "plugin/hdHipr/compat.h"
 #include "plugin/hdHipr/motion.h"
+#include "plugin/hdHipr/sampling.h"
 #include "renderer/api/scene.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
@@ -25,8 +27,9 @@ public:
     };
     Instances instances(SdfPath const& prototypeId);
 
-    /// Whether an instance primvar of this name is part of the instances' transforms.
-    static bool placesInstances(TfToken const& primvar);
+    /// What an instance primvar is of an instance's transform.
+    enum class Part { Translate, Rotate, Scale, Transform };
+    static std::optional<Part> partOf(TfToken const& primvar);
     /// Every outer instance with every inner one.
     static std::vector<GfMatrix4d> nested(std::vector<GfMatrix4d> const& inner,
                                           std::vector<GfMatrix4d> const& outer);
@@ -39,7 +42,7 @@ public:
         std::map<TfToken, hdhipr::Samples<VtValue>> parts;
     };
     /// Samples of all levels, this one first.
-    std::vector<Level> sampleLevels(SdfPath const& prototypeId);
+    std::vector<Level> sampleLevels(SdfPath const& prototypeId, hdhipr::Sampling const& sampling);
     /// Transforms at a time, as Instances has them, of levels from `level` outwards.
     static std::vector<GfMatrix4d> transformsAt(std::vector<Level> const& levels, float time,
                                                 size_t level = 0);
@@ -48,6 +51,9 @@ protected:
     void syncPrimvars(HdDirtyBits dirtyBits) override;
 
 private:
+    std::map<TfToken, hdhipr::Samples<VtValue>> sampleParts(hdhipr::Sampling const& sampling);
+    std::map<TfToken, hdhipr::Samples<VtValue>> partsByVelocity(hdhipr::Sampling const& sampling);
+    VtValue primvarAtFrame(TfToken const& name);
     std::vector<GfMatrix4d> localTransforms(VtIntArray const& indices, GfMatrix4d const& instancerTransform,
                                             std::map<TfToken, VtValue> const& primvars) const;
     std::vector<hipr::Primvar> localPrimvars(VtIntArray const& indices) const;
@@ -77,9 +83,9 @@ hipr::InstanceMotion instanceMotion(Samples<GfMatrix4d> const& own,
 
 /// Where an rprim stands: once, or as its instancer says. Without the instancer that it names it stands
 /// nowhere, which is told.
-/// With `sampled` also where it is at other times.
+/// With an open shutter also where it is at other times.
 hipr::InstancesDesc readInstances(HdSceneDelegate& delegate, SdfPath const& id, SdfPath const& instancerId,
-                                  bool sampled);
+                                  Sampling const& sampling);
 
 } // namespace hdhipr
 

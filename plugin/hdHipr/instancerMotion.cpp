@@ -3,32 +3,83 @@
 
 #include "plugin/hdHipr/convert.h"
 #include "plugin/hdHipr/instancer.h"
+#include "plugin/hdHipr/primvars.h"
+#include "plugin/hdHipr/velocity.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
 
 using namespace hdhipr;
 
-std::vector<HdHiprInstancer::Level> HdHiprInstancer::sampleLevels(SdfPath const& prototypeId) {
-    ensureSynced();
-    HdSceneDelegate& delegate = *GetDelegate();
-    Level level{this,
-                delegate.GetInstanceIndices(GetId(), prototypeId),
-                sampleInstancerTransform(delegate, GetId()),
-                {}};
-    if (level.own.values.empty()) {
-        level.own = {{0.f}, {delegate.GetInstancerTransform(GetId())}};
-    }
+namespace {
+
+size_t arraySize(VtValue const& value) {
+    return value.IsArrayValued() ? value.GetArraySize() : 0;
+}
+
+} // namespace
+
+/// A primvar of instances that Hydra may name or not: before 22.11 UsdImaging knows velocities as attributes
+/// only.
+VtValue HdHiprInstancer::primvarAtFrame(TfToken const& name) {
+    const auto found = _primvars.find(name);
+    return found == _primvars.end() ? valueAtFrame(*GetDelegate(), GetId(), name) : found->second;
+}
+
+/// Those that go by velocities. If any do, all others stay as they are at the frame, as UsdGeomPointInstancer
+/// says.
+std::map<TfToken, Samples<VtValue>> HdHiprInstancer::partsByVelocity(Sampling const& sampling) {
+    static const TfToken velocities("velocities"), accelerations("accelerations"),
+        angularVelocities("angularVelocities");
+    std::map<TfToken, Samples<VtValue>> moved;
     for (auto const& [name, value] : _primvars) {
-        if (!placesInstances(name)) {
+        Samples<VtValue> samples;
+        if (partOf(name) == Part::Translate) {
+            samples = movedBy(GetId(), toVec3s(value), primvarAtFrame(velocities),
+                              primvarAtFrame(accelerations), sampling);
+        } else if (partOf(name) == Part::Rotate) {
+            samples = turnedBy(GetId(), value, primvarAtFrame(angularVelocities), sampling);
+        }
+        if (!samples.values.empty()) {
+            moved[name] = std::move(samples);
+        }
+    }
+    return moved;
+}
+
+std::map<TfToken, Samples<VtValue>> HdHiprInstancer::sampleParts(Sampling const& sampling) {
+    std::map<TfToken, Samples<VtValue>> parts = partsByVelocity(sampling);
+    const bool byVelocity = !parts.empty();
+    for (auto const& [name, value] : _primvars) {
+        if (!partOf(name) || parts.count(name) > 0) {
             continue;
         }
-        Samples<VtValue> samples = samplePrimvar(delegate, GetId(), name);
-        level.parts[name] = samples.values.empty() ? Samples<VtValue>{{0.f}, {value}} : std::move(samples);
+        Samples<VtValue> samples;
+        if (!byVelocity) {
+            samples = samplePrimvar(*GetDelegate(), GetId(), name);
+        }
+        const bool alike = std::all_of(samples.values.begin(), samples.values.end(),
+                                       [size = arraySize(value)](VtValue const& v) {
+                                           return arraySize(v) == size; // else they are of other instances
+                                       });
+        parts[name] =
+            samples.values.empty() || !alike ? Samples<VtValue>{{0.f}, {value}} : std::move(samples);
+    }
+    return parts;
+}
+
+std::vector<HdHiprInstancer::Level> HdHiprInstancer::sampleLevels(SdfPath const& prototypeId,
+                                                                  Sampling const& sampling) {
+    ensureSynced();
+    HdSceneDelegate& delegate = *GetDelegate();
+    Level level{this, delegate.GetInstanceIndices(GetId(), prototypeId),
+                sampleInstancerTransform(delegate, GetId()), sampleParts(sampling)};
+    if (level.own.values.empty()) {
+        level.own = {{0.f}, {delegate.GetInstancerTransform(GetId())}};
     }
     std::vector<Level> levels{std::move(level)};
     HdInstancer* parent = delegate.GetRenderIndex().GetInstancer(GetParentId());
     if (parent && !GetParentId().IsEmpty()) {
-        auto outer = static_cast<HdHiprInstancer*>(parent)->sampleLevels(GetId());
+        auto outer = static_cast<HdHiprInstancer*>(parent)->sampleLevels(GetId(), sampling);
         std::move(outer.begin(), outer.end(), std::back_inserter(levels));
     }
     return levels;

@@ -202,6 +202,11 @@ HdHiprMesh::Rebuild HdHiprMesh::syncPrimvars(HdSceneDelegate* delegate, HdDirtyB
     if (std::none_of(names.begin(), names.end(), namesLightGroup)) {
         _lightGroup.clear();
     }
+    for (TfToken const& name : {HdTokens->velocities, HdTokens->accelerations}) {
+        if (!listed(name)) {
+            _velocities.read(name, VtValue());
+        }
+    }
     const auto gone = std::remove_if(_desc.primvars.begin(), _desc.primvars.end(),
                                      [&](hipr::Primvar const& pv) { return !listed(TfToken(pv.name)); });
     if (gone != _desc.primvars.end()) {
@@ -214,9 +219,13 @@ HdHiprMesh::Rebuild HdHiprMesh::syncPrimvars(HdSceneDelegate* delegate, HdDirtyB
 void HdHiprMesh::syncComputedPrimvars(HdSceneDelegate* delegate, HdDirtyBits bits, TfTokenVector* names,
                                       Rebuild* rebuild) {
     HdExtComputationPrimvarDescriptorVector dirty;
+    _pointsComputed.reset();
     for (int i = 0; i < HdInterpolationCount; ++i) {
         for (auto const& pv : delegate->GetExtComputationPrimvarDescriptors(GetId(), HdInterpolation(i))) {
             names->push_back(pv.name);
+            if (pv.name == HdTokens->points) {
+                _pointsComputed = pv;
+            }
             const bool changed = HdChangeTracker::IsPrimvarDirty(bits, GetId(), pv.name) ||
                                  (bits & HdChangeTracker::DirtyComputationPrimvarDesc);
             if (changed) {
@@ -225,7 +234,6 @@ void HdHiprMesh::syncComputedPrimvars(HdSceneDelegate* delegate, HdDirtyBits bit
         }
     }
     _computed = !names->empty();
-    _pointsComputed = std::find(names->begin(), names->end(), HdTokens->points) != names->end();
     if (dirty.empty()) {
         return;
     }
@@ -276,6 +284,7 @@ HdHiprMesh::Rebuild HdHiprMesh::setPrimvar(HdPrimvarDescriptor const& descriptor
     if (descriptor.name == HdTokens->points) {
         return setPoints(value);
     }
+    _velocities.read(descriptor.name, value);
     if (namesLightGroup(descriptor.name)) {
         _lightGroup = textOf(value);
         return Rebuild::None;
@@ -321,18 +330,23 @@ void HdHiprMesh::sendGeometry(HdSceneDelegate& delegate, Rebuild rebuild, HdHipr
         _mesh =
             pointsOnly ? hipr::updatePoints(*_mesh, _desc, report) : hipr::buildTriangleMesh(_desc, report);
     }
-    param.edit().setGeometry(_geometry, param.shutterOpen() ? meshWithMotion(delegate) : _mesh);
+    param.edit().setGeometry(_geometry, meshWithMotion(delegate, param.sampling()));
 }
 
 /// Samples are read after the points: UsdImaging hands those out once, and asking for samples counts.
-std::shared_ptr<const hipr::TriangleMesh> HdHiprMesh::meshWithMotion(HdSceneDelegate& delegate) const {
-    if (_pointsComputed) {
-        warnOnce(GetId().GetString(),
-                 "its points are computed (skinning), and computed motion is not blurred; "
-                 "while the shutter is open it stays as it is at the frame's time");
+std::shared_ptr<const hipr::TriangleMesh> HdHiprMesh::meshWithMotion(HdSceneDelegate& delegate,
+                                                                     Sampling const& sampling) const {
+    if (!sampling.open()) {
         return _mesh;
     }
-    const Samples<VtValue> points = samplePrimvar(delegate, GetId(), HdTokens->points);
+    const Samples<VtValue> points = _pointsComputed
+                                        ? sampleComputed(delegate, GetId(), *_pointsComputed)
+                                        : _velocities.samples(delegate, GetId(), _desc.points, sampling);
+    if (points.values.empty() && _pointsComputed) {
+        warnOnce(GetId().GetString(),
+                 "its points are computed (skinning), and the host does not tell how they move; "
+                 "while the shutter is open it stays as it is at the frame's time");
+    }
     hipr::MeshDesc desc = _desc; // whose other primvars no shape needs
     const auto others = [](hipr::Primvar const& pv) { return HdTokens->normals != pv.name; };
     desc.primvars.erase(std::remove_if(desc.primvars.begin(), desc.primvars.end(), others),
@@ -369,8 +383,7 @@ void HdHiprMesh::renderTagChanged(HdSceneDelegate* delegate, HdRenderParam* rend
 }
 
 void HdHiprMesh::sendInstances(HdSceneDelegate* delegate, HdHiprRenderParam& param) {
-    param.edit().setInstances(_object,
-                              readInstances(*delegate, GetId(), GetInstancerId(), param.shutterOpen()));
+    param.edit().setInstances(_object, readInstances(*delegate, GetId(), GetInstancerId(), param.sampling()));
 }
 
 PXR_NAMESPACE_CLOSE_SCOPE

@@ -9,6 +9,7 @@
 #include "plugin/hdHipr/instancer.h"
 #include "plugin/hdHipr/meshTopology.h"
 #include "plugin/hdHipr/primvars.h"
+#include "plugin/hdHipr/velocity.h"
 #include "renderer/api/scene.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
@@ -45,7 +46,8 @@ private:
     void syncComputedPrimvars(HdSceneDelegate* delegate, HdDirtyBits bits, TfTokenVector* names,
                               Rebuild* rebuild);
     void sendGeometry(HdSceneDelegate& delegate, Rebuild rebuild, HdHiprRenderParam& param);
-    std::shared_ptr<const hipr::TriangleMesh> meshWithMotion(HdSceneDelegate& delegate) const;
+    std::shared_ptr<const hipr::TriangleMesh> meshWithMotion(HdSceneDelegate& delegate,
+                                                             hdhipr::Sampling const& sampling) const;
     void sendObject(HdSceneDelegate* delegate, HdHiprRenderParam& param);
     void sendInstances(HdSceneDelegate* delegate, HdHiprRenderParam& param);
 
@@ -56,8 +58,9 @@ private:
     hdhipr::DescriptorChoice _descriptorChoice;
     TfToken _reprToken; ///< the repr that `_style` is for
     hdhipr::MeshStyle _style;
-    bool _computed = false;       ///< some primvars are computed
-    bool _pointsComputed = false; ///< the points are among them
+    bool _computed = false;                                           ///< some primvars are computed
+    std::optional<HdExtComputationPrimvarDescriptor> _pointsComputed; ///< the points are among them
+    hdhipr::PointVelocities _velocities;
     SdfPathVector _subsetMaterials;
     hdhipr::LinkState _links;
     std::string _lightGroup; ///< of what it emits

@@ -1,5 +1,7 @@
 #include "plugin/hdHipr/motion.h"
 
+#include "plugin/hdHipr/compat.h"
+
 #include "pxr/base/gf/quatd.h"
 #include "pxr/base/gf/quatf.h"
 #include "pxr/base/gf/quath.h"
@@ -94,6 +96,21 @@ Samples<VtValue> samplePrimvar(HdSceneDelegate& delegate, SdfPath const& id, TfT
     return readSamples<VtValue>([&](size_t most, float* times, VtValue* values) {
         return delegate.SamplePrimvar(id, name, most, times, values);
     });
+}
+
+Samples<VtValue> sampleComputed(HdSceneDelegate& delegate, SdfPath const& id,
+                                HdExtComputationPrimvarDescriptor const& primvar) {
+    Samples<VtValue> samples;
+    for (auto& [time, value] : computedSamples(&delegate, primvar)) {
+        samples.times.push_back(time);
+        samples.values.push_back(std::move(value));
+    }
+    if (samples.values.empty()) {
+        samples = samplePrimvar(delegate, id, TfToken("hipr:computed:" + primvar.name.GetString()));
+    }
+    const bool complete = std::none_of(samples.values.begin(), samples.values.end(),
+                                       [](VtValue const& value) { return value.IsEmpty(); });
+    return complete ? samples : Samples<VtValue>();
 }
 
 GfMatrix4d at(Samples<GfMatrix4d> const& samples, float time) {

@@ -34,8 +34,9 @@ template <class Value> struct Samples {
 
 /// Calls read(most, times, values), which says how many samples there are, until all fit.
 template <class Value, class Read> Samples<Value> readSamples(Read const& read) {
-    std::vector<float> times(4);
-    std::vector<Value> values(4);
+    constexpr size_t few = 8;
+    std::vector<float> times(few);
+    std::vector<Value> values(few);
     size_t count = read(times.size(), times.data(), values.data());
     if (count > times.size()) {
         times.resize(count);
@@ -58,6 +59,11 @@ template <class Value, class Read> Samples<Value> readSamples(Read const& read) 
 Samples<GfMatrix4d> sampleTransform(HdSceneDelegate& delegate, SdfPath const& id);
 Samples<GfMatrix4d> sampleInstancerTransform(HdSceneDelegate& delegate, SdfPath const& instancer);
 Samples<VtValue> samplePrimvar(HdSceneDelegate& delegate, SdfPath const& id, TfToken const& name);
+
+/// Of a computed primvar. None where neither Hydra (before 21.05) nor the host has any: a host may answer
+/// when it is asked for samples of the primvar "hipr:computed:<name>", as hiprrecord does for skinned points.
+Samples<VtValue> sampleComputed(HdSceneDelegate& delegate, SdfPath const& id,
+                                HdExtComputationPrimvarDescriptor const& primvar);
 
 /// Adds the times of samples that differ.
 template <class Value> void addTimes(Samples<Value> const& samples, std::vector<float>& times) {

@@ -64,8 +64,8 @@ void HdHiprParticleField::Sync(HdSceneDelegate* delegate, HdRenderParam* renderP
     }
     // Last: UsdImaging hands out values once, and asking for samples of them counts.
     if (bits & (instanceBits | valueBits)) {
-        hipr::InstancesDesc placed = readInstances(*delegate, GetId(), GetInstancerId(), param.shutterOpen());
-        if (param.shutterOpen()) {
+        hipr::InstancesDesc placed = readInstances(*delegate, GetId(), GetInstancerId(), param.sampling());
+        if (param.sampling().open()) {
             warnOfMotion(*delegate, GetId(), SplatTokens().positions, placed.motion);
         }
         placed.motion = {};

@@ -41,10 +41,6 @@ std::optional<hipr::Primvar> take(std::vector<hipr::Primvar>& primvars, TfToken 
     return taken.components == components ? std::optional(std::move(taken)) : std::nullopt;
 }
 
-bool finite(glm::vec3 const& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 /// Any frame whose z axis is `z`.
 glm::mat3 frameAround(glm::vec3 const& z) {
     const glm::vec3 axis = std::abs(z.x) < 0.6f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
@@ -80,7 +76,7 @@ hipr::Primvar repeated(hipr::Primvar const& primvar, size_t times, size_t each) 
 } // namespace
 
 std::shared_ptr<const hipr::TriangleMesh> HdHiprPoints::readShape(HdSceneDelegate& delegate) {
-    const std::vector<glm::vec3> points = toVec3s(delegate.Get(GetId(), HdTokens->points));
+    const std::vector<glm::vec3> points = readPoints(delegate);
     std::vector<hipr::Primvar> primvars = readPrimvars(delegate, [&](HdInterpolation interpolation) {
         return interpolation == HdInterpolationConstant || interpolation == HdInterpolationUniform
                    ? 1
@@ -151,8 +147,9 @@ void HdHiprPoints::place(std::vector<glm::vec3> const& points, std::vector<hipr:
 }
 
 /// The points' own motion and that of what they are part of, together.
-hipr::InstanceMotion HdHiprPoints::motion(HdSceneDelegate& delegate, hipr::InstancesDesc const& placed) {
-    const Samples<VtValue> samples = samplePrimvar(delegate, GetId(), HdTokens->points);
+hipr::InstanceMotion HdHiprPoints::motion(HdSceneDelegate& delegate, hipr::InstancesDesc const& placed,
+                                          Sampling const& sampling) {
+    const Samples<VtValue> samples = samplePoints(delegate, sampling);
     hipr::InstanceMotion motion;
     motion.times = placed.motion.times;
     addTimes(samples, motion.times);
@@ -174,8 +171,8 @@ hipr::InstanceMotion HdHiprPoints::motion(HdSceneDelegate& delegate, hipr::Insta
     return motion;
 }
 
-hipr::InstancesDesc HdHiprPoints::instances(HdSceneDelegate& delegate, bool sampled) {
-    const hipr::InstancesDesc placed = readInstances(delegate, GetId(), GetInstancerId(), sampled);
+hipr::InstancesDesc HdHiprPoints::instances(HdSceneDelegate& delegate, Sampling const& sampling) {
+    const hipr::InstancesDesc placed = readInstances(delegate, GetId(), GetInstancerId(), sampling);
     const size_t points = _placements.size(), instances = placed.transforms.size();
     hipr::InstancesDesc desc;
     desc.transforms.reserve(points * instances);
@@ -189,8 +186,8 @@ hipr::InstancesDesc HdHiprPoints::instances(HdSceneDelegate& delegate, bool samp
             desc.categories.insert(desc.categories.end(), points, placed.categories[i]);
         }
     }
-    if (sampled) {
-        desc.motion = motion(delegate, placed);
+    if (sampling.open()) {
+        desc.motion = motion(delegate, placed, sampling);
     }
     for (hipr::Primvar const& primvar : _perPoint) {
         if (points > 0) {

@@ -16,12 +16,13 @@ public:
 protected:
     std::shared_ptr<const hipr::TriangleMesh> readShape(HdSceneDelegate& delegate) override;
     std::shared_ptr<const hipr::TriangleMesh> shapeOf(VtValue const&) override { return nullptr; }
-    hipr::InstancesDesc instances(HdSceneDelegate& delegate, bool sampled) override;
+    hipr::InstancesDesc instances(HdSceneDelegate& delegate, hdhipr::Sampling const& sampling) override;
     bool shapePlacesInstances() const override { return true; }
 
 private:
     void place(std::vector<glm::vec3> const& points, std::vector<hipr::Primvar>& primvars);
-    hipr::InstanceMotion motion(HdSceneDelegate& delegate, hipr::InstancesDesc const& placed);
+    hipr::InstanceMotion motion(HdSceneDelegate& delegate, hipr::InstancesDesc const& placed,
+                                hdhipr::Sampling const& sampling);
 
     std::vector<glm::mat4> _placements;   ///< of the unit shape, in the space of the prim
     std::vector<uint32_t> _placed;        ///< which point each of them is of

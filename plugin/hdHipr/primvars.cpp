@@ -81,8 +81,7 @@ std::optional<glm::vec3> toColor(TfToken const& name, VtValue const& value) {
     }
     auto const& v = primvar->values;
     const glm::vec3 color = primvar->components < 3 ? glm::vec3(v[0]) : glm::vec3(v[0], v[1], v[2]);
-    const bool finite = std::isfinite(color.x) && std::isfinite(color.y) && std::isfinite(color.z);
-    return finite ? std::optional(color) : std::nullopt;
+    return finite(color) ? std::optional(color) : std::nullopt;
 }
 
 std::optional<hipr::Interpolation> toInterpolation(HdInterpolation interpolation) {
@@ -137,6 +136,10 @@ std::vector<HdPrimvarDescriptorVector> byName(HdPrimvarDescriptorVector const& d
         }
     }
     return groups;
+}
+
+bool finite(glm::vec3 const& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 std::vector<glm::vec3> toVec3s(VtValue const& value) {

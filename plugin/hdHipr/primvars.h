@@ -65,6 +65,8 @@ bool appendArray(VtValue const& value, std::vector<Out>& out, Convert convert) {
     return true;
 }
 
+bool finite(glm::vec3 const& v);
+
 /// An array of triples of single, double or half precision. Empty when the value holds none.
 std::vector<glm::vec3> toVec3s(VtValue const& value);
 

@@ -210,6 +210,7 @@ bool HdHiprRenderDelegate::storeSetting(TfToken const& key, VtValue const& value
         return false;
     }
     const SettingResult result = assignRenderSetting(_settings, key, value);
+    _param->setFramesPerSecond(_settings.framesPerSecond);
     if (result == SettingResult::Unknown) {
         if (TfStringStartsWith(key.GetString(), "hipr:") && key != dataWindowKey) {
             warnOnce("", key == deviceKey ? "the device can be chosen only when the renderer is created"

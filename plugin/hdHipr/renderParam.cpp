@@ -125,9 +125,27 @@ void HdHiprRenderParam::dropShutter(SdfPath const& camera) {
     _shutterDropped |= _openShutters.erase(camera) > 0;
 }
 
-bool HdHiprRenderParam::shutterOpen() {
+hdhipr::Sampling HdHiprRenderParam::sampling() {
     std::lock_guard<std::mutex> lock(_mutex);
-    return !_openShutters.empty();
+    hdhipr::Sampling sampling{{}, _framesPerSecond};
+    for (auto const& [camera, shutter] : _openShutters) {
+        hipr::Shutter& all = sampling.shutter;
+        all = all.blurs()
+                  ? hipr::Shutter{std::min(all.open, shutter.open), std::max(all.close, shutter.close)}
+                  : shutter;
+    }
+    return sampling;
+}
+
+void HdHiprRenderParam::setFramesPerSecond(double framesPerSecond) {
+    std::lock_guard<std::mutex> lock(_mutex);
+    _rateChanged |= framesPerSecond != _framesPerSecond;
+    _framesPerSecond = framesPerSecond;
+}
+
+bool HdHiprRenderParam::takeRateChange() {
+    std::lock_guard<std::mutex> lock(_mutex);
+    return std::exchange(_rateChanged, false) && !_openShutters.empty();
 }
 
 bool HdHiprRenderParam::hasDome() {

@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "plugin/hdHipr/renderLoop.h"
+#include "plugin/hdHipr/sampling.h"
 #include "pxr/imaging/hd/rprimCollection.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
@@ -61,8 +62,11 @@ public:
     bool setShutter(SdfPath const& camera, hipr::Shutter const& shutter);
     /// The camera goes, perhaps to come back at once: UsdImaging makes some anew that were edited.
     void dropShutter(SdfPath const& camera);
-    /// Whether any camera has a shutter that opens.
-    bool shutterOpen();
+    /// How long the shutters of all cameras together are open, and how fast time runs then.
+    hdhipr::Sampling sampling();
+    void setFramesPerSecond(double framesPerSecond);
+    /// Whether prims have to be sampled anew since this was asked last, because time runs otherwise.
+    bool takeRateChange();
 
     /// What the render pass draws. Objects outside of it become invisible.
     void setFilter(HdRprimCollection const& collection, TfTokenVector const& renderTags);
@@ -88,6 +92,8 @@ private:
     std::set<hipr::LightId> _domes; ///< those that are switched on
     std::map<SdfPath, hipr::Shutter> _openShutters;
     bool _shutterDropped = false; ///< since the last setShutter()
+    double _framesPerSecond = hipr::Settings().framesPerSecond;
+    bool _rateChanged = false; ///< since the last takeRateChange()
     SdfPathVector _rootPaths, _excludePaths;
     TfTokenVector _renderTags;
 };

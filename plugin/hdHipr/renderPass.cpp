@@ -55,6 +55,13 @@ HdHiprRenderPass::HdHiprRenderPass(HdRenderIndex* index, HdRprimCollection const
                                    HdHiprRenderParam& param)
     : HdRenderPass(index, collection), _param(param), _repr(collection.GetReprSelector()) {}
 
+/// Hydra syncs passes before rprims.
+void HdHiprRenderPass::_Sync() {
+    if (_param.takeRateChange()) {
+        GetRenderIndex()->GetChangeTracker().MarkAllRprimsDirty(sampledBits);
+    }
+}
+
 void HdHiprRenderPass::_MarkCollectionDirty() {
     // A mesh has one shape at a time, that of the repr it synced last: another repr must sync again.
     if (GetRprimCollection().GetReprSelector() == _repr) {

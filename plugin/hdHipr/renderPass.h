@@ -20,6 +20,7 @@ public:
     bool IsConverged() const override;
 
 protected:
+    void _Sync() override;
     void _MarkCollectionDirty() override;
     void _Execute(HdRenderPassStateSharedPtr const& state, TfTokenVector const& renderTags) override;
 

@@ -10,6 +10,7 @@
 #include "plugin/hdHipr/motion.h"
 #include "plugin/hdHipr/primvars.h"
 #include "plugin/hdHipr/renderParam.h"
+#include "plugin/hdHipr/velocity.h"
 #include "pxr/imaging/hd/tokens.h"
 #include "renderer/api/mesh.h"
 
@@ -47,9 +48,9 @@ public:
         if (bits & HdChangeTracker::DirtyMaterialId) {
             this->updateMaterialId(delegate, delegate->GetMaterialId(this->GetId()));
         }
-        const bool sampled = param.shutterOpen();
+        const Sampling sampling = param.sampling();
         if (bits & shapeBits) {
-            param.edit().setGeometry(_geometry, shapeWithMotion(*delegate, sampled));
+            param.edit().setGeometry(_geometry, shapeWithMotion(*delegate, sampling));
         }
         const bool relinked = _links.sync(*delegate, this->GetId(), this->GetInstancerId(), bits);
         if (bits & objectBits) {
@@ -57,7 +58,7 @@ public:
         }
         const HdDirtyBits placing = shapePlacesInstances() ? instanceBits | shapeBits : instanceBits;
         if (relinked || (bits & placing)) {
-            param.edit().setInstances(_object, instances(*delegate, sampled));
+            param.edit().setInstances(_object, instances(*delegate, sampling));
         }
         *dirtyBits = HdChangeTracker::Clean;
     }
@@ -67,12 +68,21 @@ protected:
     virtual std::shared_ptr<const hipr::TriangleMesh> readShape(HdSceneDelegate& delegate) = 0;
     /// The shape that was read last with other points; null where these do not shape it.
     virtual std::shared_ptr<const hipr::TriangleMesh> shapeOf(VtValue const& points) = 0;
-    /// Where the geometry stands; with `sampled` also at other times.
-    virtual hipr::InstancesDesc instances(HdSceneDelegate& delegate, bool sampled) {
-        return readInstances(delegate, this->GetId(), this->GetInstancerId(), sampled);
+    /// Where the geometry stands; with an open shutter also at other times.
+    virtual hipr::InstancesDesc instances(HdSceneDelegate& delegate, Sampling const& sampling) {
+        return readInstances(delegate, this->GetId(), this->GetInstancerId(), sampling);
     }
     /// Whether instances() depends on the shape.
     virtual bool shapePlacesInstances() const { return false; }
+
+    /// Reads the points of the shape.
+    std::vector<glm::vec3> readPoints(HdSceneDelegate& delegate) {
+        return _points = toVec3s(delegate.Get(this->GetId(), HdTokens->points));
+    }
+    /// The points of the shape that was read last while the shutter is open: by velocities where it has them.
+    Samples<VtValue> samplePoints(HdSceneDelegate& delegate, Sampling const& sampling) {
+        return _velocities.samples(delegate, this->GetId(), _points, sampling);
+    }
 
     /// All authored primvars but the points. `elements` tells how many values an interpolation has.
     template <class Elements>
@@ -83,12 +93,14 @@ protected:
             authored.insert(authored.end(), some.begin(), some.end());
         }
         std::vector<hipr::Primvar> primvars;
+        _velocities = PointVelocities();
         for (HdPrimvarDescriptorVector const& same : byName(authored)) {
             if (same.front().name == HdTokens->points) {
                 continue;
             }
             VtIntArray indices;
             const VtValue value = this->readPrimvar(&delegate, same.front().name, &indices);
+            _velocities.read(same.front().name, value);
             const size_t count = !indices.empty()        ? indices.size()
                                  : value.IsArrayValued() ? value.GetArraySize()
                                                          : 1;
@@ -126,12 +138,16 @@ protected:
 
 private:
     /// Samples come last: UsdImaging hands out the points once, and asking for samples of them counts.
-    std::shared_ptr<const hipr::TriangleMesh> shapeWithMotion(HdSceneDelegate& delegate, bool sampled) {
+    std::shared_ptr<const hipr::TriangleMesh> shapeWithMotion(HdSceneDelegate& delegate,
+                                                              Sampling const& sampling) {
         const std::shared_ptr<const hipr::TriangleMesh> shape = readShape(delegate);
-        if (!sampled) {
+        if (!_velocities.any()) {
+            _points = {}; // which velocities alone need
+        }
+        if (!sampling.open()) {
             return shape;
         }
-        return deforming(this->GetId(), shape, samplePrimvar(delegate, this->GetId(), HdTokens->points),
+        return deforming(this->GetId(), shape, samplePoints(delegate, sampling),
                          [this](VtValue const& points) { return shapeOf(points); });
     }
 
@@ -164,6 +180,8 @@ private:
     DescriptorChoice _descriptorChoice;
     LinkState _links;
     bool _synced = false;
+    PointVelocities _velocities;
+    std::vector<glm::vec3> _points; ///< at the frame, where there are velocities
 };
 
 } // namespace hdhipr

@@ -84,7 +84,7 @@ void HdHiprVolume::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, H
     }
     if (relinked || (bits & instanceBits)) {
         param.edit().setInstances(_object,
-                                  readInstances(*delegate, GetId(), GetInstancerId(), param.shutterOpen()));
+                                  readInstances(*delegate, GetId(), GetInstancerId(), param.sampling()));
     }
     *dirtyBits = HdChangeTracker::Clean;
 }

@@ -7,6 +7,7 @@
 #include "plugin/record/cryptomatte.h"
 #include "plugin/record/failure.h"
 #include "plugin/record/recordTask.h"
+#include "plugin/record/skinnedScene.h"
 #include "pxr/base/gf/half.h"
 #include "pxr/base/tf/stringUtils.h"
 #include "pxr/imaging/cameraUtil/conformWindow.h"
@@ -17,7 +18,6 @@
 #include "pxr/imaging/hd/renderIndex.h"
 #include "pxr/imaging/hd/rendererPluginRegistry.h"
 #include "pxr/imaging/hd/tokens.h"
-#include "pxr/usdImaging/usdImaging/delegate.h"
 
 PXR_NAMESPACE_USING_DIRECTIVE
 
@@ -118,7 +118,7 @@ struct Engine::Impl {
 
     HdPluginRenderDelegateUniqueHandle delegate;
     std::unique_ptr<HdRenderIndex> index;
-    std::unique_ptr<UsdImagingDelegate> scene;
+    std::unique_ptr<SkinnedScene> scene;
     std::vector<Aov> aovs;
     std::shared_ptr<RecordTask> task;
     HdEngine hydra;
@@ -209,7 +209,7 @@ void Engine::populate(const UsdStageRefPtr& stage, const SdfPath& camera, const 
     _impl->index.reset(HdRenderIndex::New(_impl->delegate.Get(), {}));
     if (!_impl->index) throw Failure(ExitRender, "Hydra does not accept the renderer");
 
-    _impl->scene = std::make_unique<UsdImagingDelegate>(_impl->index.get(), SdfPath::AbsoluteRootPath());
+    _impl->scene = std::make_unique<SkinnedScene>(_impl->index.get(), SdfPath::AbsoluteRootPath());
     _impl->scene->SetDisplayRender(contains(options.purposes, "render"));
     _impl->scene->SetDisplayProxy(contains(options.purposes, "proxy"));
     _impl->scene->SetDisplayGuides(contains(options.purposes, "guide"));

@@ -174,6 +174,10 @@ void Recording::open() {
     std::vector<std::string> mask = _options.mask;
     if (!mask.empty() && TfStringStartsWith(_options.camera, "/")) mask.push_back(_options.camera);
     _stage = openStage(_options.scene, mask);
+    auto chosen = _options.settings;
+    chosen.insert(chosen.end(), _options.sceneSettings.begin(), _options.sceneSettings.end());
+    applyDefault(_engine.delegate(), "hipr:framesPerSecond", std::to_string(_stage->GetTimeCodesPerSecond()),
+                 chosen);
     _frames = _options.frames.empty() ? std::vector<double>{defaultFrame(_stage)} : _options.frames;
     FrameReport first;
     first.frame = _frames.front();

@@ -118,6 +118,14 @@ void applySetting(HdRenderDelegate& delegate, const std::string& key, const std:
     if (now != value) throw Failure(ExitUsage, "setting '" + key + "': the renderer refuses '" + text + "'");
 }
 
+void applyDefault(HdRenderDelegate& delegate, const std::string& key, const std::string& text,
+                  const std::vector<std::pair<std::string, std::string>>& chosen) {
+    const bool set = std::any_of(chosen.begin(), chosen.end(), [&](const auto& setting) {
+        return setting.first == key || setting.first == lastPart(key);
+    });
+    if (!set && hasSetting(delegate, key)) applySetting(delegate, key, text);
+}
+
 bool hasSetting(const HdRenderDelegate& delegate, const std::string& key) {
     const HdRenderSettingDescriptorList known = delegate.GetRenderSettingDescriptors();
     return std::any_of(known.begin(), known.end(), [&](const auto& setting) { return setting.key == key; });

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "pxr/imaging/hd/renderDelegate.h"
 
@@ -12,6 +14,11 @@ namespace hipr::record {
 /// "hipr:maxDepth"). Throws Failure with ExitUsage for an unknown key (and lists the known ones), for text
 /// that is not of the setting's type, and for a value the renderer refuses.
 void applySetting(PXR_NS::HdRenderDelegate& delegate, const std::string& key, const std::string& text);
+
+/// Sets a render setting, if the renderer has it and no one of `chosen` sets it: keys with texts, as for
+/// applySetting.
+void applyDefault(PXR_NS::HdRenderDelegate& delegate, const std::string& key, const std::string& text,
+                  const std::vector<std::pair<std::string, std::string>>& chosen);
 
 /// Whether the renderer describes a setting of this key.
 bool hasSetting(const PXR_NS::HdRenderDelegate& delegate, const std::string& key);

@@ -16,8 +16,9 @@ bool samePicture(const Settings& a, const Settings& b) {
     c.timeLimit = b.timeLimit;
     c.threadLimit = b.threadLimit;
     c.interactive = b.interactive;
-    c.traversal = b.traversal; // all traversals report the same hits
-    c.mode = b.mode;           // what is rendered first is no part of the picture
+    c.traversal = b.traversal;             // all traversals report the same hits
+    c.framesPerSecond = b.framesPerSecond; // what moves by it is sent anew
+    c.mode = b.mode;                       // what is rendered first is no part of the picture
     c.tileSize = b.tileSize;
     c.scoutRate = b.scoutRate;
     c.floorShare = b.floorShare;

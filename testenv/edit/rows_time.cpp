@@ -1,15 +1,22 @@
 // Time, and what is animated.
 #include "testenv/edit/edits.h"
 
+PXR_NAMESPACE_USING_DIRECTIVE
+
 namespace hipr::test {
 
 /// Why some rows are skipped.
 static const char* const animationUntracked = "it does not follow edits of skeletal animations and bindings";
 
+static std::string four(const std::string& vector) {
+    return "[(" + vector + "), (" + vector + "), (" + vector + "), (" + vector + ")]";
+}
+
 /// While the shutter is open for what frame 5 of the scene shows.
 static Rows motionRows() {
     const std::string anim = "/World/Anim/";
     const Edit open = all({time(5), in("/Camera", "double shutter:open = -0.5\ndouble shutter:close = 0.5")});
+    const std::string velocities = "vector3f[] velocities = " + four("12, -4, 0");
     return {
         {"ShutterOpens", in("/Camera", "double shutter:open = -0.5\ndouble shutter:close = 0.5"), time(5)},
         {"ShutterOpensLater", in("/Camera", "double shutter:open = 0.2"), open},
@@ -31,6 +38,20 @@ static Rows motionRows() {
             "point3f[] positions.timeSamples = { 4: [(-0.6, -0.2, 0), (-0.2, 0.2, 0), (0.2, -0.2, 0), (0.6, "
             "0.2, 0)], 6: [(-0.5, -0.3, 0), (-0.3, 0.3, 0), (0.1, -0.1, 0), (0.5, 0.1, 0)] }"),
          open},
+        {"MotionByVelocities", in(anim + "Bender", velocities), open},
+        {"MotionByAccelerations", in(anim + "Bender", "vector3f[] accelerations = " + four("-400, 0, 0")),
+         all({open, in(anim + "Bender", velocities)})},
+        {"MotionByVelocitiesEnds", in(anim + "Bender", "vector3f[] velocities = None"),
+         all({open, in(anim + "Bender", velocities)})},
+        {"MotionByVelocitiesOfCurves",
+         in("/World/Shapes/Ribbon", "vector3f[] velocities = [(0, 4, 0), (3, 4, 0), (0, 4, 0)]"), open},
+        {"MotionByVelocitiesOfPoints",
+         in("/World/Shapes/Dots", "vector3f[] velocities = [(0, 4, 0), (3, 4, 0), (0, 4, 0)]"), open},
+        {"MotionByVelocitiesOfInstances", in("/World/Inst/Cloud", velocities), open},
+        {"MotionByAngularVelocities",
+         in("/World/Inst/Cloud", "vector3f[] angularVelocities = " + four("0, 0, 1200")), open},
+        {"MotionRate", setting("hipr:framesPerSecond", VtValue(60.f)),
+         all({open, in(anim + "Bender", velocities), in("/World/Inst/Cloud", velocities)})},
         {"MotionOfTheCamera",
          in("/Camera", "double3 xformOp:translate.timeSamples = { 4: (4, 2, 12), 6: (3.5, 2.2, 11) }"), open},
     };

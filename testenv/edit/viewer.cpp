@@ -8,13 +8,13 @@
 
 #include "plugin/hdHipr/renderBuffer.h"
 #include "plugin/hdHipr/renderDelegate.h"
+#include "plugin/record/skinnedScene.h"
 #include "pxr/imaging/hd/camera.h"
 #include "pxr/imaging/hd/engine.h"
 #include "pxr/imaging/hd/renderPass.h"
 #include "pxr/imaging/hd/renderPassState.h"
 #include "pxr/imaging/hd/task.h"
 #include "pxr/imaging/hd/tokens.h"
-#include "pxr/usdImaging/usdImaging/delegate.h"
 #if PXR_VERSION >= 2308
 #include "pxr/imaging/cameraUtil/framing.h"
 #endif
@@ -25,11 +25,21 @@ namespace hipr::test {
 
 namespace {
 
-const char* const aovNames[] = {"color",           "albedo",         "depth",
-                                "cameraDepth",     "normal",         "primId",
-                                "elementId",       "instanceId",     "primvars:displayColor",
-                                "primvars:st",     "CryptoObject00", "CryptoMaterial00",
-                                "CryptoAsset00",   "motion",         "lpe:C<RD>.*",
+const char* const aovNames[] = {"color",
+                                "albedo",
+                                "depth",
+                                "cameraDepth",
+                                "normal",
+                                "primId",
+                                "elementId",
+                                "instanceId",
+                                "primvars:displayColor",
+                                "primvars:st",
+                                "CryptoObject00",
+                                "CryptoMaterial00",
+                                "CryptoAsset00",
+                                "motion",
+                                "lpe:C<RD>.*",
                                 "lpe:C.*<[LO].'key'>"};
 
 class PassTask final : public HdTask {
@@ -78,7 +88,7 @@ TfTokenVector renderTags(const View& view) {
 struct Viewer::Impl {
     HdHiprRenderDelegate delegate;
     std::unique_ptr<HdRenderIndex> index{HdRenderIndex::New(&delegate, {})};
-    std::unique_ptr<UsdImagingDelegate> imaging;
+    std::unique_ptr<record::SkinnedScene> imaging;
     UsdStageRefPtr stage;
     std::map<std::string, HdHiprRenderBuffer*> buffers;
     std::shared_ptr<PassTask> task;
@@ -160,7 +170,7 @@ void Viewer::tick(const UsdStageRefPtr& stage, const View& view) {
     if (_impl->stage != stage) { // as usdview opens another file: the delegate and its index stay
         _impl->imaging.reset();
         _impl->imaging =
-            std::make_unique<UsdImagingDelegate>(_impl->index.get(), SdfPath::AbsoluteRootPath());
+            std::make_unique<record::SkinnedScene>(_impl->index.get(), SdfPath::AbsoluteRootPath());
         _impl->show(view);
         _impl->imaging->SetCameraForSampling(SdfPath(view.camera)); // whose shutter says what moves
         _impl->imaging->Populate(stage->GetPseudoRoot());

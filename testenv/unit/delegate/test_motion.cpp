@@ -1,5 +1,8 @@
 /// Motion blur: what moves while the shutter of the camera is open covers each place for the time it is
 /// there.
+#include <cmath>
+#include <limits>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,6 +14,7 @@ PXR_NAMESPACE_USING_DIRECTIVE
 
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -100,6 +104,148 @@ TEST_F(Motion, ofPointsThatAreBalls) {
     EXPECT_GT(before, 0.9); // the pixel filter reaches beyond the ball
     EXPECT_LT(coverage(there[0][0] - 2.f), 0.6);
     EXPECT_GT(coverage(there[0][0] - 1.f), 0.05);
+}
+
+/// To the right in units a frame, for each of so many.
+VtValue velocities(size_t count, double unitsAFrame, double framesPerSecond = 24.0) {
+    return VtValue(VtVec3fArray(count, GfVec3f(float(unitsAFrame * framesPerSecond), 0, 0)));
+}
+
+TEST_F(Motion, ofPointsByVelocities) {
+    auto& square = host.scene().addSquare(SdfPath("/square"), GfVec3f(0.5f));
+    square.primvars[HdTokens->velocities] = {HdInterpolationVertex, velocities(4, 1.0)};
+    square.primvarsAtClose[HdTokens->points] = pointsAt(-1); // does not count then
+    expectMoved();
+    host.delegate().SetRenderSetting(TfToken("hipr:framesPerSecond"), VtValue(48.0));
+    expectMoved(0.5);
+    square.primvars[HdTokens->velocities].value = velocities(4, 0.25, 48.0);
+    host.scene().tracker().MarkRprimDirty(SdfPath("/square"), HdChangeTracker::DirtyPoints);
+    expectMoved(0.25);
+    square.primvars.erase(HdTokens->velocities);
+    square.primvarsAtClose.clear();
+    host.scene().tracker().MarkRprimDirty(SdfPath("/square"), HdChangeTracker::DirtyPoints);
+    expectStill();
+    EXPECT_THAT(warnings.texts(), ElementsAre());
+}
+
+TEST_F(Motion, byVelocitiesGoesOnFromTheFrame) {
+    auto& square = host.scene().addSquare(SdfPath("/square"), GfVec3f(0.5f));
+    square.primvars[HdTokens->velocities] = {HdInterpolationVertex, velocities(4, 1.0)};
+    square.primvars[HdTokens->points].value = pointsAt(1.f);
+    setShutter(-1.0, 0.0);
+    expectMoved();
+}
+
+TEST_F(Motion, byAccelerationsIsAParabola) {
+    auto& square = host.scene().addSquare(SdfPath("/square"), GfVec3f(0.5f));
+    square.primvars[HdTokens->velocities] = {HdInterpolationVertex, velocities(4, 0.0)};
+    square.primvars[HdTokens->accelerations] = {HdInterpolationVertex, velocities(4, 2.0, 24.0 * 24.0)};
+    ASSERT_TRUE(host.render());
+    for (const double x : {-0.8125, -0.1875, 0.0625, 0.3125, 0.8125, 1.0625, 1.3125}) { // it is at t * t
+        const double comes = std::sqrt(std::clamp(x - 0.5, 0.0, 1.0)),
+                     goes = std::sqrt(std::clamp(x + 0.5, 0.0, 1.0));
+        EXPECT_NEAR(coverage(x), goes - comes, 0.12) << x; // a straight way would give 0.31 at -0.1875
+    }
+    EXPECT_THAT(warnings.texts(), ElementsAre());
+}
+
+/// Of points that go a unit to the right, once by samples and once by velocities.
+void expectAlike(TestHost& host, TestScene::Prim& prim, SdfPath const& id) {
+    const auto row = [&] {
+        std::vector<GfVec4f> pixels;
+        for (double x = -0.49; x < 0.5; x += 0.03) {
+            pixels.push_back(host.readColor(x, 0));
+        }
+        return pixels;
+    };
+    VtVec3fArray points = prim.primvars[HdTokens->points].value.Get<VtVec3fArray>();
+    ASSERT_TRUE(host.render());
+    const auto still = row();
+    for (GfVec3f& point : points) {
+        point[0] += 1.f;
+    }
+    prim.primvarsAtClose[HdTokens->points] = VtValue(points);
+    host.scene().tracker().MarkRprimDirty(id, HdChangeTracker::DirtyPoints);
+    ASSERT_TRUE(host.render());
+    const auto sampled = row();
+    prim.primvarsAtClose.clear();
+    prim.primvars[HdTokens->velocities] = {HdInterpolationVertex, velocities(points.size(), 1.0)};
+    host.scene().tracker().MarkRprimDirty(id, HdChangeTracker::DirtyPoints);
+    ASSERT_TRUE(host.render());
+    EXPECT_NE(sampled, still);
+    EXPECT_EQ(row(), sampled);
+}
+
+TEST_F(Motion, ofCurvesByVelocities) {
+    expectAlike(host, host.scene().addCurve(SdfPath("/curve"), GfVec3f(0.5f)), SdfPath("/curve"));
+    EXPECT_THAT(warnings.texts(), ElementsAre());
+}
+
+TEST_F(Motion, ofBallsByVelocities) {
+    const VtVec3fArray colors{GfVec3f(0.5f), GfVec3f(0.5f)};
+    expectAlike(host, host.scene().addPoints(SdfPath("/balls"), colors), SdfPath("/balls"));
+    EXPECT_THAT(warnings.texts(), ElementsAre());
+}
+
+/// Hosts name the velocities of instances as primvars of theirs; UsdImaging of 20.08 only gives them to who
+/// asks.
+TEST_F(Motion, ofInstancersByVelocities) {
+    const SdfPath instancer("/instancer"), square("/instancer/square");
+    auto& placing = host.scene().addInstancer(instancer, square, {GfVec3f(0.f)});
+    host.scene().addSquare(square, GfVec3f(0.5f), instancer);
+    placing.primvars[HdTokens->velocities] = {HdInterpolationInstance, velocities(1, 1.0)};
+    placing.primvarsAtClose[TfToken("translate")] = VtValue(VtVec3fArray{{-1, 0, 0}}); // does not count then
+    expectMoved();
+    placing.primvars.erase(HdTokens->velocities);
+    placing.params[HdTokens->velocities] = velocities(1, 0.5);
+    host.scene().tracker().MarkInstancerDirty(instancer, HdChangeTracker::DirtyPrimvar);
+    expectMoved(0.5);
+    EXPECT_THAT(warnings.texts(), ElementsAre());
+}
+
+TEST_F(Motion, ofInstancersThatSpin) {
+    const SdfPath instancer("/instancer"), square("/instancer/square");
+    auto& placing = host.scene().addInstancer(instancer, square, {GfVec3f(0.f)});
+    placing.primvars[TfToken("rotate")] = {HdInterpolationInstance, VtValue(VtVec4fArray{{1, 0, 0, 0}})};
+    placing.primvars[TfToken("angularVelocities")] = {HdInterpolationInstance,
+                                                      VtValue(VtVec3fArray{{0, 0, 360.f * 24.f}})};
+    host.scene().addSquare(square, GfVec3f(0.5f), instancer);
+    ASSERT_TRUE(host.render());
+    EXPECT_GT(coverage(0.3), 0.99);
+    // The corners of a unit square that turns sweep a ring; here between the directions of four.
+    const double radius = 0.5625, corner = std::acos(0.5 / radius);
+    EXPECT_NEAR(coverage(radius), 1.0 - 8.0 * corner / (2.0 * M_PI), 0.12);
+    EXPECT_NEAR(host.readColor(0, radius / viewSize)[3], 1.0 - 8.0 * corner / (2.0 * M_PI), 0.12);
+    EXPECT_LT(coverage(0.8), 0.05);
+    EXPECT_THAT(warnings.texts(), ElementsAre());
+}
+
+TEST_F(Motion, byVelocitiesWithoutOneForEachIsTold) {
+    auto& square = host.scene().addSquare(SdfPath("/square"), GfVec3f(0.5f));
+    square.primvars[HdTokens->velocities] = {HdInterpolationVertex, velocities(3, 1.0)};
+    expectStill();
+    square.primvars[HdTokens->velocities].value =
+        VtValue(VtVec3fArray(4, GfVec3f(std::numeric_limits<float>::infinity())));
+    host.scene().tracker().MarkRprimDirty(SdfPath("/square"), HdChangeTracker::DirtyPoints);
+    expectStill();
+    EXPECT_THAT(warnings.texts(), Contains(HasSubstr("</square>: it has 3 velocities where 4 are wanted")));
+    EXPECT_THAT(warnings.texts(), Contains(HasSubstr("</square>: some of its velocities are no numbers")));
+}
+
+/// As a host tells it where Hydra has no samples of what computations read.
+TEST_F(Motion, ofComputedPoints) {
+    const SdfPath square("/square"), computation("/square/skin");
+    auto& prim = host.scene().addSquare(square, GfVec3f(0.5f));
+    host.scene().addComputation(computation);
+    prim.computation = computation;
+    expectStill();
+    EXPECT_THAT(warnings.texts(), ElementsAre(HasSubstr("</square>: its points are computed")));
+    const TfToken samples("hipr:computed:points");
+    prim.params[samples] = pointsAt(0);
+    prim.primvarsAtClose[samples] = pointsAt(1);
+    host.scene().tracker().MarkRprimDirty(square, HdChangeTracker::DirtyPoints);
+    expectMoved();
+    EXPECT_EQ(warnings.texts().size(), 1u);
 }
 
 TEST_F(Motion, isThatOfTheShutter) {
