@@ -19,6 +19,7 @@
 #include "plugin/hdHipr/renderParam.h"
 #include "plugin/hdHipr/renderPass.h"
 #include "plugin/hdHipr/renderSettings.h"
+#include "plugin/hdHipr/renderSettingsPrim.h"
 #include "plugin/hdHipr/volume.h"
 #include "pxr/base/tf/stringUtils.h"
 #include "pxr/imaging/hd/extComputation.h"
@@ -98,7 +99,13 @@ TfTokenVector const& HdHiprRenderDelegate::GetSupportedSprimTypes() const {
 }
 
 TfTokenVector const& HdHiprRenderDelegate::GetSupportedBprimTypes() const {
-    static const TfTokenVector types = {HdPrimTypeTokens->renderBuffer, vdbFieldType()};
+    static const TfTokenVector types = {
+#if PXR_VERSION >= 2311
+        HdPrimTypeTokens->renderSettings,
+#endif
+        HdPrimTypeTokens->renderBuffer,
+        vdbFieldType()
+    };
     return types;
 }
 
@@ -169,6 +176,11 @@ HdBprim* HdHiprRenderDelegate::CreateBprim(TfToken const& type, SdfPath const& i
     if (type == vdbFieldType()) {
         return new HdHiprField(id);
     }
+#if PXR_VERSION >= 2311
+    if (type == HdPrimTypeTokens->renderSettings) {
+        return new HdHiprRenderSettings(id);
+    }
+#endif
     warnOnce(id.GetString(), "prims of type '" + type.GetString() + "' are not supported");
     return nullptr;
 }

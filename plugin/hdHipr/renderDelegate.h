@@ -59,10 +59,14 @@ public:
     /// took.
     VtDictionary GetRenderStats() const override;
 
-    bool IsPauseSupported() const override { return true; }
+    bool IsPauseSupported() const override {
+        return true;
+    }
     bool Pause() override;
     bool Resume() override;
-    bool IsStopSupported() const override { return true; }
+    bool IsStopSupported() const override {
+        return true;
+    }
     bool Restart() override;
 
 protected:
