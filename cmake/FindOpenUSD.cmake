@@ -110,6 +110,9 @@ endfunction()
 
 set(OpenUSD_HAS_IMAGING FALSE)
 if(NOT _usd_failure)
+    if(OpenUSD_VERSION VERSION_GREATER_EQUAL 22.08)
+        list(APPEND _usd_hydra_libs hdsi) # scene indices that renderers share
+    endif()
     _usd_resolve(_usd_hydra ${_usd_hydra_libs})
     _usd_resolve(_usd_imaging ${_usd_imaging_libs})
     if(_usd_hydra_MISSING)

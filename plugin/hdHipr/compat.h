@@ -1,12 +1,14 @@
 /// @file compat.h
 /// The only place that knows how OpenUSD 20.08 .. 26.x differ. Every other file of the delegate derives from
-/// the bases below and calls the helpers below; none of them tests a version.
+/// the bases below and calls the helpers below; none of them tests a version but sceneIndices.cpp, which
+/// versions before 22.08 have no use for.
 #pragma once
 
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "plugin/hdHipr/commands.h"
 #include "pxr/base/gf/matrix4d.h"
 #include "pxr/base/vt/value.h"
 #include "pxr/imaging/hd/changeTracker.h"
@@ -96,6 +98,22 @@ public:
         return renderingPaused();
     }
 #endif
+#if PXR_VERSION >= 2108
+    HdCommandDescriptors GetCommandDescriptors() const final {
+        HdCommandDescriptors descriptors;
+        for (Command const& command : commands()) {
+            HdCommandArgDescriptors arguments;
+            for (auto const& [name, value] : command.arguments) {
+                arguments.emplace_back(TfToken(name), value);
+            }
+            descriptors.emplace_back(TfToken(command.name), command.description, arguments);
+        }
+        return descriptors;
+    }
+    bool InvokeCommand(TfToken const& command, HdCommandArgs const& arguments) final {
+        return runCommand(command, arguments);
+    }
+#endif
 #if PXR_VERSION >= 2305
     TfTokenVector GetRenderSettingsNamespaces() const final {
         return {TfToken("hipr")};
@@ -121,6 +139,7 @@ protected:
     virtual HdRprim* createRprim(TfToken const& type, SdfPath const& id, SdfPath const& instancerId) = 0;
     virtual HdInstancer* createInstancer(HdSceneDelegate* delegate, SdfPath const& id,
                                          SdfPath const& parentId) = 0;
+    virtual bool runCommand(TfToken const& name, VtDictionary const& arguments) = 0;
     virtual bool stopRendering() = 0;
     virtual bool renderingStopped() const = 0;
     virtual bool renderingPaused() const = 0;
@@ -237,6 +256,16 @@ inline VtValue lightParam(HdSceneDelegate* delegate, SdfPath const& id, TfToken 
     }
 #endif
     return delegate->GetLightParamValue(id, name);
+}
+
+/// Whether a prim that is drawn is a light too. Scene indices alone tell, from 22.11 on; before them nobody
+/// asks for lights where there are none.
+inline bool isLightToo([[maybe_unused]] HdSceneDelegate* delegate, [[maybe_unused]] SdfPath const& id) {
+#if PXR_VERSION >= 2211
+    return delegate->GetLightParamValue(id, TfToken("isLight")).GetWithDefault<bool>(false);
+#else
+    return false;
+#endif
 }
 
 /// HdLight with its instancer: from 23.08 on, lights inside instances reach the renderer.

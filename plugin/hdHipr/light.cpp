@@ -6,6 +6,7 @@
 #include "plugin/hdHipr/assets.h"
 #include "plugin/hdHipr/convert.h"
 #include "plugin/hdHipr/instancer.h"
+#include "plugin/hdHipr/lightParams.h"
 #include "plugin/hdHipr/messages.h"
 #include "plugin/hdHipr/renderParam.h"
 #include "pxr/base/tf/stringUtils.h"
@@ -46,19 +47,8 @@ hipr::DomeFormat domeFormat(SdfPath const& id, TfToken const& format) {
     return hipr::DomeFormat::LatLong;
 }
 
-/// Reads parameters of one light; an absent one, or one of a type that cannot be cast, keeps the default.
-struct Params {
-    HdSceneDelegate* delegate;
-    SdfPath const& id;
-
-    template <class T> T get(const char* name, T const& fallback) const {
-        const VtValue value = VtValue::Cast<T>(lightParam(delegate, id, TfToken(name)));
-        return value.IsHolding<T>() ? value.template UncheckedGet<T>() : fallback;
-    }
-};
-
 /// The group by which light path expressions know a light, under the names that hosts write.
-std::string lightGroup(Params const& params) {
+std::string lightGroup(LightParams const& params) {
     for (const char* name : {"hipr:lightGroup", "karma:light:lpetag", "ri:light:lightGroup"}) {
         const VtValue value = lightParam(params.delegate, params.id, TfToken(name));
         const std::string group = value.IsHolding<TfToken>() ? value.UncheckedGet<TfToken>().GetString()
@@ -146,7 +136,7 @@ std::vector<GfMatrix4d> HdHiprLight::instanceTransforms(HdSceneDelegate* delegat
 }
 
 void HdHiprLight::syncParams(HdSceneDelegate* delegate) {
-    const Params params{delegate, GetId()};
+    const LightParams params{delegate, GetId()};
     _desc.visible = lightVisible(delegate, GetId());
     _desc.intensity = params.get("intensity", 1.f);
     _desc.exposure = params.get("exposure", 0.f);
@@ -186,7 +176,7 @@ void HdHiprLight::syncLinks(HdSceneDelegate* delegate, HdDirtyBits bits) {
 }
 
 hipr::LightShadow HdHiprLight::readShadow(HdSceneDelegate* delegate) const {
-    const Params params{delegate, GetId()};
+    const LightParams params{delegate, GetId()};
     hipr::LightShadow shadow;
     shadow.enable = params.get("shadow:enable", true);
     shadow.color = toGlm(params.get("shadow:color", GfVec3f(0.f)));
@@ -199,7 +189,7 @@ hipr::LightShadow HdHiprLight::readShadow(HdSceneDelegate* delegate) const {
 /// The cone of a light without ShapingAPI is the whole sphere; that of one with it is 90 degrees by default,
 /// which Hydra tells.
 hipr::LightShaping HdHiprLight::readShaping(HdSceneDelegate* delegate) const {
-    const Params params{delegate, GetId()};
+    const LightParams params{delegate, GetId()};
     hipr::LightShaping shaping;
     shaping.focus = params.get("shaping:focus", 0.f);
     shaping.focusTint = toGlm(params.get("shaping:focusTint", GfVec3f(0.f)));

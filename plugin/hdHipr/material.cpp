@@ -9,17 +9,8 @@ PXR_NAMESPACE_OPEN_SCOPE
 void HdHiprMaterial::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdDirtyBits* dirtyBits) {
     auto& param = static_cast<HdHiprRenderParam&>(*renderParam);
     if (*dirtyBits & (DirtyResource | DirtyParams)) {
-        const VtValue resource = delegate->GetMaterialResource(GetId());
-        HdMaterialNetworkMap networks;
-        if (resource.IsHolding<HdMaterialNetworkMap>()) {
-            networks = resource.UncheckedGet<HdMaterialNetworkMap>();
-        }
-        const auto desc = hdhipr::materialDesc(GetId(), networks);
-        if (desc) {
-            param.edit().setMaterial(param.materialId(GetId()), *desc);
-        } else { // without a surface the mesh shows its displayColor
-            param.edit().removeMaterial(param.materialId(GetId()));
-        }
+        const HdMaterialNetworkMap networks = hdhipr::materialNetworks(*delegate, GetId());
+        param.setMaterial(GetId(), hdhipr::materialDesc(GetId(), networks));
         if (const auto look = hdhipr::volumeLook(GetId(), networks)) {
             param.edit().setVolumeLook(param.materialId(GetId()), *look);
         } else {
@@ -32,7 +23,7 @@ void HdHiprMaterial::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
 void HdHiprMaterial::Finalize(HdRenderParam* renderParam) {
     auto& param = static_cast<HdHiprRenderParam&>(*renderParam);
     if (!GetId().IsEmpty()) {
-        param.edit().removeMaterial(param.materialId(GetId()));
+        param.setMaterial(GetId(), std::nullopt);
         param.edit().removeVolumeLook(param.materialId(GetId()));
     }
 }

@@ -220,6 +220,10 @@ void setDisplacement(SdfPath const& materialPath, HdMaterialNetworkMap const& ne
 
 } // namespace
 
+HdMaterialNetworkMap materialNetworks(HdSceneDelegate& delegate, SdfPath const& material) {
+    return delegate.GetMaterialResource(material).GetWithDefault<HdMaterialNetworkMap>();
+}
+
 std::optional<hipr::MaterialDesc> materialDesc(SdfPath const& materialPath,
                                                HdMaterialNetworkMap const& networks) {
     const auto surface = networks.map.find(HdMaterialTerminalTokens->surface);

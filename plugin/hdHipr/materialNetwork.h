@@ -12,6 +12,9 @@ PXR_NAMESPACE_OPEN_SCOPE
 
 namespace hdhipr {
 
+/// The networks of a material; none where it has none.
+HdMaterialNetworkMap materialNetworks(HdSceneDelegate& delegate, SdfPath const& material);
+
 /// Reads the surface terminal: a UsdPreviewSurface, or a surface of MaterialX (hipr::mtlxSurface()), fed by
 /// the pattern nodes of hipr::mtlxNodes(), USD's own among them (UsdPreviewSurface Specification 2.6).
 /// Unknown nodes, unsupported connections and cycles are reported once for `materialPath`, and the input

@@ -5,6 +5,7 @@
 #include "plugin/hdHipr/cards.h"
 #include "plugin/hdHipr/convert.h"
 #include "plugin/hdHipr/instancer.h"
+#include "plugin/hdHipr/materialNetwork.h"
 #include "plugin/hdHipr/messages.h"
 #include "plugin/hdHipr/motion.h"
 #include "plugin/hdHipr/primvars.h"
@@ -101,6 +102,7 @@ void HdHiprMesh::_InitRepr(TfToken const& reprToken, HdDirtyBits* dirtyBits) {
 void HdHiprMesh::Finalize(HdRenderParam* renderParam) {
     auto& param = static_cast<HdHiprRenderParam&>(*renderParam);
     param.removeObject(_object);
+    stopShining(param);
     param.edit().removeGeometry(_geometry);
     HdMesh::Finalize(renderParam);
 }
@@ -123,7 +125,9 @@ void HdHiprMesh::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdD
         sendGeometry(*delegate, rebuild, param);
     }
     const bool relinked = _links.sync(*delegate, GetId(), GetInstancerId(), bits);
-    if ((bits & objectBits) || lightGroup != _lightGroup) {
+    const bool areaChanged =
+        _light && _light->normalize && (rebuild != Rebuild::None || (bits & instanceBits));
+    if ((bits & objectBits) || lightGroup != _lightGroup || areaChanged) {
         sendObject(delegate, param);
     }
     if (relinked || (bits & instanceBits)) {
@@ -368,12 +372,45 @@ void HdHiprMesh::sendObject(HdSceneDelegate* delegate, HdHiprRenderParam& param)
     state.desc.categories = _links.names();
     state.desc.lightGroup = _lightGroup;
     state.desc.cull = toCullStyle(GetCullStyle(delegate));
-    const hipr::MaterialId own = param.materialId(GetMaterialId());
-    state.desc.materials.push_back(own);
+    _light = meshLight(delegate, GetId());
+    if (!_light) {
+        stopShining(param);
+    }
+    SdfPathVector paths = {GetMaterialId()};
     for (SdfPath const& path : _subsetMaterials) {
-        state.desc.materials.push_back(path.IsEmpty() ? own : param.materialId(path));
+        paths.push_back(path.IsEmpty() ? GetMaterialId() : path);
+    }
+    for (size_t slot = 0; slot < paths.size(); ++slot) {
+        state.desc.materials.push_back(_light ? shining(delegate, param, slot, paths[slot])
+                                              : param.materialId(paths[slot]));
     }
     param.setObject(_object, state);
+}
+
+/// The material of a slot as the mesh's light has it shine.
+hipr::MaterialId HdHiprMesh::shining(HdSceneDelegate* delegate, HdHiprRenderParam& param, size_t slot,
+                                     SdfPath const& base) {
+    while (_shining.size() <= slot) {
+        _shining.push_back(param.newId<hipr::MaterialId>());
+    }
+    MeshLight light = *_light;
+    if (light.normalize && _mesh) {
+        const double area = worldArea(*_mesh, delegate->GetTransform(GetId()));
+        light.radiance *= area > 0 ? float(1 / area) : 0.f;
+    }
+    std::optional<hipr::MaterialDesc> desc;
+    if (!base.IsEmpty()) {
+        desc = materialDesc(base, materialNetworks(*delegate, base));
+    }
+    param.shiningMaterials().set(_shining[slot], base, desc, light, param.edit());
+    return _shining[slot];
+}
+
+void HdHiprMesh::stopShining(HdHiprRenderParam& param) {
+    for (const hipr::MaterialId id : _shining) {
+        param.shiningMaterials().remove(id, param.edit());
+    }
+    _shining.clear();
 }
 
 void HdHiprMesh::renderTagChanged(HdSceneDelegate* delegate, HdRenderParam* renderParam) {

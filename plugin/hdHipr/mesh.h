@@ -7,6 +7,7 @@
 
 #include "plugin/hdHipr/compat.h"
 #include "plugin/hdHipr/instancer.h"
+#include "plugin/hdHipr/meshLight.h"
 #include "plugin/hdHipr/meshTopology.h"
 #include "plugin/hdHipr/primvars.h"
 #include "plugin/hdHipr/velocity.h"
@@ -50,6 +51,9 @@ private:
                                                              hdhipr::Sampling const& sampling) const;
     void sendObject(HdSceneDelegate* delegate, HdHiprRenderParam& param);
     void sendInstances(HdSceneDelegate* delegate, HdHiprRenderParam& param);
+    hipr::MaterialId shining(HdSceneDelegate* delegate, HdHiprRenderParam& param, size_t slot,
+                             SdfPath const& base);
+    void stopShining(HdHiprRenderParam& param);
 
     hipr::GeometryId _geometry;
     hipr::ObjectId _object;
@@ -64,6 +68,8 @@ private:
     SdfPathVector _subsetMaterials;
     hdhipr::LinkState _links;
     std::string _lightGroup; ///< of what it emits
+    std::optional<hdhipr::MeshLight> _light;
+    std::vector<hipr::MaterialId> _shining; ///< by slot, if it is a light
     std::shared_ptr<const hipr::TriangleMesh> _mesh;
 };
 

@@ -7,6 +7,7 @@
 #include "plugin/hdHipr/assets.h"
 #include "plugin/hdHipr/basisCurves.h"
 #include "plugin/hdHipr/camera.h"
+#include "plugin/hdHipr/commands.h"
 #include "plugin/hdHipr/field.h"
 #include "plugin/hdHipr/instancer.h"
 #include "plugin/hdHipr/light.h"
@@ -36,6 +37,7 @@ namespace {
 const char* const deviceKey = "hipr:device";
 const char* const everyBatchKey = "hipr:publishEveryBatch";
 const char* const sceneDumpKey = "hipr:sceneDump";
+const char* const commandKey = "hipr:command";
 const char* const publishNowKey = "hipr:publishNow";
 const char* const cryptomatteKey = "hipr:cryptomatte:"; // and the AOV: the names of its manifest
 const char* const dataWindowKey = "hipr:dataWindow";
@@ -221,6 +223,10 @@ bool HdHiprRenderDelegate::storeSetting(TfToken const& key, VtValue const& value
         }
         return false;
     }
+    if (key == commandKey) {
+        runCommand(TfToken(VtValue::Cast<std::string>(value).GetWithDefault<std::string>()), {});
+        return false;
+    }
     const SettingResult result = assignRenderSetting(_settings, key, value);
     _param->setFramesPerSecond(_settings.framesPerSecond);
     if (result == SettingResult::Unknown) {
@@ -315,6 +321,10 @@ bool HdHiprRenderDelegate::Resume() {
     }
     _param->loop()->resume();
     return true;
+}
+
+bool HdHiprRenderDelegate::runCommand(TfToken const& name, VtDictionary const& arguments) {
+    return _param->canRender() && invokeCommand(*_param->loop(), name, arguments);
 }
 
 bool HdHiprRenderDelegate::stopRendering() {

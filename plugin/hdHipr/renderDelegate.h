@@ -44,7 +44,8 @@ public:
     /// kept for GetRenderSetting and have no effect; unknown keys that begin with `hipr:` are reported.
     /// Some keys are no settings but doors for recorders and tests: `hipr:publishEveryBatch` (bool; see
     /// RenderLoop); `hipr:publishNow`, which reads as true once the buffers, the denoised one too, show all
-    /// samples there are; `hipr:sceneDump`, which reads as the text of hipr::Renderer::dumpScene();
+    /// samples there are; `hipr:command` (string), which runs one of hdhipr::commands() where OpenUSD has no
+    /// commands; `hipr:sceneDump`, which reads as the text of hipr::Renderer::dumpScene();
     /// `hipr:cryptomatte:CryptoObject` and its like, which read as hipr::Renderer::cryptomatteNames(); and
     /// `hipr:dataWindow` (GfVec4f: xmin, ymin, xmax, ymax), the part of the camera's picture that fills the
     /// buffers, in place of what the viewport says, for hosts whose Hydra has no framing.
@@ -73,6 +74,7 @@ protected:
     HdRprim* createRprim(TfToken const& type, SdfPath const& id, SdfPath const& instancerId) override;
     HdInstancer* createInstancer(HdSceneDelegate* delegate, SdfPath const& id,
                                  SdfPath const& parentId) override;
+    bool runCommand(TfToken const& name, VtDictionary const& arguments) override;
     bool stopRendering() override;
     bool renderingStopped() const override;
     bool renderingPaused() const override;

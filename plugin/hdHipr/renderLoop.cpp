@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <thread>
+#include <utility>
 
 #include "plugin/hdHipr/aov.h"
 #include "plugin/hdHipr/messages.h"
@@ -83,6 +84,12 @@ void RenderLoop::submitEdit(hipr::SceneEdit& edit) {
 void RenderLoop::submitSettings(hipr::Settings const& settings) {
     std::lock_guard<std::mutex> lock(_requestMutex);
     _settings = settings;
+    changed();
+}
+
+void RenderLoop::submitTextureReload() {
+    std::lock_guard<std::mutex> lock(_requestMutex);
+    _reloadTextures = true;
     changed();
 }
 
@@ -216,6 +223,7 @@ void RenderLoop::pickUp() {
     hipr::SceneEdit edit;
     hipr::Settings settings;
     hipr::FilmDesc film;
+    bool reload = false;
     {
         const std::scoped_lock lock(_publishMutex, _requestMutex);
         if (_pickedVersion == _version.load()) {
@@ -227,6 +235,7 @@ void RenderLoop::pickUp() {
         edit.append(_edit);
         settings = _settings;
         _threadLimit = settings.threadLimit;
+        reload = std::exchange(_reloadTextures, false);
         _denoisedShown &= _shownFrame.rect == _frame.rect && _shownFrame.targets == _frame.targets;
         _shownFrame = _frame;
         _firstHitsShown = false;
@@ -236,7 +245,8 @@ void RenderLoop::pickUp() {
         film.aovs = aovsFor(_frame.targets);
     }
     hipr::ChangedSet changed = _renderer->setSettings(settings);
-    for (hipr::ChangedSet const& more : {_renderer->setFilm(film), _renderer->commit(edit)}) {
+    for (hipr::ChangedSet const& more : {_renderer->setFilm(film), _renderer->commit(edit),
+                                         reload ? _renderer->reloadTextures() : hipr::ChangedSet()}) {
         changed.elements.insert(changed.elements.end(), more.elements.begin(), more.elements.end());
     }
     hipr::MemoryReport memory = _renderer->memory();

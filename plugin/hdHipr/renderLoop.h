@@ -65,6 +65,7 @@ public:
     /// Requests, for the main thread. Each restarts the picture only when it changes something.
     void submitEdit(hipr::SceneEdit& edit); ///< moves the content out of `edit`
     void submitSettings(hipr::Settings const& settings);
+    void submitTextureReload(); ///< the files of all textures are read again
     void submitFrame(Frame const& frame);
 
     /// The buffer will not be written any more when this returns.
@@ -123,6 +124,7 @@ private:
     mutable std::mutex _requestMutex; ///< guards the request; held briefly
     hipr::SceneEdit _edit;
     hipr::Settings _settings;
+    bool _reloadTextures = false;
     Frame _frame;
     hipr::MemoryReport _memory;
     hipr::ChangedSet _lastChanged;

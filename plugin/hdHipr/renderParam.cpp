@@ -43,6 +43,16 @@ hipr::MaterialId HdHiprRenderParam::materialId(SdfPath const& path) {
     return id;
 }
 
+void HdHiprRenderParam::setMaterial(SdfPath const& path, std::optional<hipr::MaterialDesc> const& desc) {
+    const hipr::MaterialId id = materialId(path);
+    if (desc) {
+        _edit.setMaterial(id, *desc);
+    } else { // without a surface the mesh shows its displayColor
+        _edit.removeMaterial(id);
+    }
+    _shiningMaterials.baseChanged(path, desc, _edit);
+}
+
 hipr::FieldId HdHiprRenderParam::fieldId(SdfPath const& path) {
     std::lock_guard<std::mutex> lock(_mutex);
     hipr::FieldId& id = _fields[path];

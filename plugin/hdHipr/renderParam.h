@@ -7,6 +7,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "plugin/hdHipr/meshLight.h"
 #include "plugin/hdHipr/renderLoop.h"
 #include "plugin/hdHipr/sampling.h"
 #include "pxr/imaging/hd/rprimCollection.h"
@@ -43,6 +44,10 @@ public:
 
     /// The material of a path. A mesh may ask before the material has synced, or when it never does.
     hipr::MaterialId materialId(SdfPath const& path);
+
+    /// A material of the scene has been edited, or is gone.
+    void setMaterial(SdfPath const& path, std::optional<hipr::MaterialDesc> const& desc);
+    hdhipr::ShiningMaterials& shiningMaterials() { return _shiningMaterials; }
 
     /// The field of a path, likewise.
     hipr::FieldId fieldId(SdfPath const& path);
@@ -84,6 +89,7 @@ private:
     std::unique_ptr<hdhipr::RenderLoop> _loop;
     hipr::SceneEdit _edit;
     std::atomic<uint32_t> _lastId{0};
+    hdhipr::ShiningMaterials _shiningMaterials;
 
     std::mutex _mutex; ///< guards everything below
     std::unordered_map<SdfPath, hipr::MaterialId, SdfPath::Hash> _materials;

@@ -81,6 +81,10 @@ public:
     /// Applies an edit (and empties it). Samples are discarded when anything changed.
     virtual ChangedSet commit(SceneEdit& edit) = 0;
 
+    /// Reads the files of all textures again, those of lights and displacement too, and discards all samples. Where
+    /// there are no textures, nothing happens.
+    virtual ChangedSet reloadTextures() = 0;
+
     /// Each discards all samples if, and only if, the value differs in a way that changes the picture. The set then
     /// has one element, of kind Change::Setting; otherwise it is empty.
     virtual ChangedSet setFilm(const FilmDesc& film) = 0;

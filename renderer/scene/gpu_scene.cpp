@@ -94,6 +94,34 @@ ChangedSet GpuScene::apply(const std::vector<SceneEdit::Op>& ops) {
     return changed;
 }
 
+/// Whoever shows a texture lets go of it, so that all are freed, and asks for it again.
+ChangedSet GpuScene::reloadTextures() {
+    ChangedSet changed;
+    for (const auto& [id, desc] : _materialDescs) {
+        _materials.set(id, MaterialDesc());
+        _displacement.removeMaterial(id);
+    }
+    for (const auto& [id, desc] : _lightDescs)
+        _lights.remove(id);
+    _displacement.update(_geometries, _objects, changed);
+    const bool any = _textures.commit() || !changed.empty();
+    for (const auto& [id, desc] : _materialDescs) {
+        _materials.set(id, desc);
+        _displacement.setMaterial(id, desc);
+        const Change emission = _materials.emissive(id) ? Change::Emission : Change::None;
+        changed.elements.push_back({id, Change::Material | emission});
+    }
+    for (const auto& [id, desc] : _lightDescs) {
+        if (_options.lights) _lights.set(id, desc, groupOf(desc));
+        if (!desc.texture.empty()) changed.elements.push_back({id, Change::Emission});
+    }
+    if (!any) return {};
+    _displacement.update(_geometries, _objects, changed);
+    _tracedChanged = true;
+    mergeElements(changed);
+    return changed;
+}
+
 void GpuScene::apply(const SceneEdit::GeometryOp& op, ChangedSet& changed) {
     if (!op.mesh)
         _displacement.removeGeometry(op.id);

@@ -37,6 +37,9 @@ public:
 
     /// Records edits; nothing reaches the device before commit().
     ChangedSet apply(const std::vector<SceneEdit::Op>& ops);
+    /// Has the files of all textures read again by the next commit(); nothing where there are none. No submission
+    /// may be reading the scene.
+    ChangedSet reloadTextures();
     /// Returns whether the options differ from the ones before.
     bool setOptions(const SceneOptions& options);
     /// Loads textures, uploads tables, builds acceleration structures. Blocking.

@@ -99,10 +99,19 @@ void RendererImpl::finish() {
 }
 
 ChangedSet RendererImpl::commit(SceneEdit& edit) {
+    return commitChanges([&] { return _scene.apply(edit.take()); });
+}
+
+ChangedSet RendererImpl::reloadTextures() {
+    return commitChanges([&] { return _scene.reloadTextures(); });
+}
+
+/// `apply` changes the scene and says what.
+ChangedSet RendererImpl::commitChanges(const std::function<ChangedSet()>& apply) {
     ChangedSet changed;
     guarded([&] {
         const std::optional<CameraDesc> before = _scene.camera();
-        changed = _scene.apply(edit.take());
+        changed = apply();
         if (changed.empty()) return true;
         const bool camera = anyCamera(changed) && !(before && before->sameView(*_scene.camera()));
         const bool traced = _scene.tracedChanged() || lensChanged(before, _scene.camera()) ||

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <mutex>
 
 #include <tbb/task_arena.h>
@@ -31,6 +32,7 @@ public:
 
     const DeviceInfo& device() const override { return _device->info(); }
     ChangedSet commit(SceneEdit& edit) override;
+    ChangedSet reloadTextures() override;
     ChangedSet setFilm(const FilmDesc& film) override;
     ChangedSet setSettings(const Settings& settings) override;
     bool renderBatch() override;
@@ -52,6 +54,7 @@ private:
     enum class Cause { Picture, Edit, Camera, Everything };
 
     template <class F> bool guarded(F&& work);
+    ChangedSet commitChanges(const std::function<ChangedSet()>& apply);
     void fail(const char* reason);
     void finish();
     void restart(Cause cause);

@@ -1,40 +1,15 @@
 // What a path covers of a texture: pictures of checkers that are known when they are blurred.
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-
-#include <unistd.h>
 
 #include <gtest/gtest.h>
 
+#include "testenv/render/picture_file.h"
 #include "testenv/render/scene_kit.h"
 
 using namespace hipr;
 using namespace hipr::test;
 
 namespace {
-
-namespace fs = std::filesystem;
-
-/// A picture file, removed with this.
-class PictureFile {
-public:
-    /// `grey` of column and row, 0..255.
-    template <class Grey>
-    PictureFile(const std::string& name, uint32_t side, Grey grey)
-        : _path(fs::temp_directory_path() / ("hipr-" + std::to_string(getpid()) + "-" + name + ".ppm")) {
-        std::ofstream out(_path, std::ios::binary);
-        out << "P6\n" << side << " " << side << "\n255\n";
-        for (uint32_t y = 0; y < side; ++y)
-            for (uint32_t x = 0; x < side; ++x)
-                out << std::string(3, char(grey(x, y)));
-    }
-    ~PictureFile() { fs::remove(_path); }
-    std::string path() const { return _path.string(); }
-
-private:
-    fs::path _path;
-};
 
 /// Black and white squares of one texel.
 PictureFile checker() {

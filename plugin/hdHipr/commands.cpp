@@ -1,0 +1,55 @@
+#include "plugin/hdHipr/commands.h"
+
+#include <algorithm>
+#include <fstream>
+
+#include "plugin/hdHipr/messages.h"
+#include "plugin/hdHipr/renderLoop.h"
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+namespace hdhipr {
+
+namespace {
+
+bool reloadTextures(RenderLoop& loop, VtDictionary const&) {
+    loop.submitTextureReload();
+    return true;
+}
+
+bool dumpScene(RenderLoop& loop, VtDictionary const& arguments) {
+    const std::string path = VtDictionaryGet<std::string>(arguments, "file", VtDefault = std::string());
+    std::ofstream file(path);
+    loop.whenIdle([&](hipr::Renderer& renderer) { renderer.dumpScene(file); });
+    file.close();
+    if (!file) {
+        warnOnce("", "the scene cannot be written to '" + path + "'");
+    }
+    return bool(file);
+}
+
+} // namespace
+
+std::vector<Command> const& commands() {
+    static const std::vector<Command> all = {
+        {"reloadTextures", "Read all textures again and start the picture anew", {}, reloadTextures},
+        {"dumpScene",
+         "Write what the renderer holds of the scene to a text file",
+         {{"file", VtValue(std::string("hipr_scene.txt"))}},
+         dumpScene}};
+    return all;
+}
+
+bool invokeCommand(RenderLoop& loop, TfToken const& name, VtDictionary const& arguments) {
+    const auto command = std::find_if(commands().begin(), commands().end(),
+                                      [&](Command const& known) { return name == known.name; });
+    if (command == commands().end()) {
+        warnOnce("", "there is no command '" + name.GetString() + "'");
+        return false;
+    }
+    return command->invoke(loop, VtDictionaryOver(arguments, command->arguments));
+}
+
+} // namespace hdhipr
+
+PXR_NAMESPACE_CLOSE_SCOPE
