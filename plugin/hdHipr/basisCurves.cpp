@@ -90,6 +90,9 @@ std::shared_ptr<const hipr::TriangleMesh> HdHiprBasisCurves::readShape(HdSceneDe
 }
 
 std::shared_ptr<const hipr::TriangleMesh> HdHiprBasisCurves::shapeOf(VtValue const& points) {
+    if (!_desc.form) { // so that all shapes have as many vertices
+        _desc.form = hipr::curveForm(_desc);
+    }
     hipr::CurvesDesc desc = _desc;
     desc.points = toVec3s(points);
     return hipr::buildCurves(desc, report);

@@ -17,9 +17,8 @@ std::vector<gpu::BvhTriangle> leafTriangles(const GeometryView& view, const std:
     tbb::parallel_for(tbb::blocked_range<size_t>(0, out.size(), 32768), [&](const auto& range) {
         for (size_t i = range.begin(); i < range.end(); ++i) {
             const uint32_t primitive = order[i % order.size()];
-            const glm::vec3* positions = view.positions + i / order.size() * view.vertexCount;
-            const glm::uvec3 t = view.triangles[primitive];
-            out[i] = {positions[t.x], positions[t.y], positions[t.z], primitive};
+            const auto [a, b, c] = cornersOf(view, primitive, uint32_t(i / order.size()));
+            out[i] = {a, b, c, primitive};
         }
     });
     return out;
@@ -46,7 +45,7 @@ void BvhGeometry::fetch(Device& device) {
 }
 
 void BvhGeometry::prepare() {
-    const std::vector<Bounds> boxes = triangleBoxes(_view);
+    const std::vector<Bounds> boxes = primitiveBoxes(_view);
     const BvhOptions options;
     if (!_bvh.nodes.empty() && _triangleCount == boxes.size()) refitBvh(_bvh, boxes, options);
     if (_bvh.nodes.empty() || _triangleCount != boxes.size() || _bvh.cost > WORN_OUT * _builtCost) {

@@ -10,12 +10,13 @@
 
 namespace hipr {
 
-/// A geometry's tree: nodes, then triangles, those of the next key behind those of one, in one buffer.
+/// A geometry's tree: nodes, then triangles or segments, those of the next key behind those of one, in one
+/// buffer.
 class BvhGeometry {
 public:
     void setView(const GeometryView& view);
     bool changed() const { return _changed; }
-    SlotShape shape() const { return {_bounds, _view.keys, _triangleCount}; }
+    SlotShape shape() const { return {_bounds, _view.keys, _triangleCount, _view.segments != nullptr}; }
 
     /// Gets the tree back when it may be refitted.
     void fetch(Device& device);

@@ -14,14 +14,20 @@
 namespace hipr {
 namespace {
 
+Kernel nearestKernel(Device& device, uint32_t features) {
+    return Kernel(device, spirv::bvhNearest_spv, spirv::bvhNearest_spv_size, sizeof(gpu::TracePush),
+                  "bvhNearest", false, features);
+}
+
+Kernel occludedKernel(Device& device, uint32_t features) {
+    return Kernel(device, spirv::bvhOccluded_spv, spirv::bvhOccluded_spv_size, sizeof(gpu::TracePush),
+                  "bvhOccluded", false, features);
+}
+
 class BvhTraversal final : public DeviceTraversal {
 public:
     explicit BvhTraversal(Device& device)
-        : DeviceTraversal(Kernel(device, spirv::bvhNearest_spv, spirv::bvhNearest_spv_size,
-                                 sizeof(gpu::TracePush), "bvhNearest"),
-                          Kernel(device, spirv::bvhOccluded_spv, spirv::bvhOccluded_spv_size,
-                                 sizeof(gpu::TracePush), "bvhOccluded")),
-          _device(device) {}
+        : DeviceTraversal(nearestKernel(device, 0), occludedKernel(device, 0)), _device(device) {}
 
     void setGeometry(uint32_t slot, const GeometryView* view) override {
         if (slot >= _geometries.size()) _geometries.resize(slot + 1);
@@ -31,6 +37,11 @@ public:
             return;
         }
         if (!_geometries[slot]) _geometries[slot] = std::make_unique<BvhGeometry>();
+        if (view->segments && !_segments) { // others need no code for them
+            _segments = true;
+            _nearest = nearestKernel(_device, gpu::SCENE_HAS_SEGMENTS);
+            _occluded = occludedKernel(_device, gpu::SCENE_HAS_SEGMENTS);
+        }
         _geometries[slot]->setView(*view);
     }
 
@@ -100,6 +111,7 @@ private:
     VkDeviceAddress _keysAddress = 0;
     DeviceInstances _instances;
     bool _instancesChanged = true;
+    bool _segments = false; ///< the kernels know of them
 };
 
 } // namespace

@@ -4,7 +4,8 @@
 #include <limits>
 #include <vector>
 
-#include "shaders/shared/intersect.h"
+#include "renderer/accel/geometry_bounds.h"
+#include "shaders/shared/segment.h"
 
 namespace hipr {
 namespace {
@@ -59,6 +60,7 @@ struct Query {
     // What canonical tests need; only made for instances with something to test.
     uint32_t prepared = gpu::NO_INDEX;
     gpu::TriangleRay triangleRay;
+    gpu::SegmentRay segmentRay;
     gpu::BoxRay box;
     float entry, exit;
 
@@ -72,7 +74,7 @@ struct Query {
     bool enter(uint32_t index);
     void prepare();
     bool consider(uint32_t primitive, float proposed);
-    glm::vec3 cornerAt(const GeometryView& view, uint32_t vertex) const;
+    Corners cornersNow(const GeometryView& view, uint32_t primitive) const;
     bool found() const { return best.instance != gpu::NO_INDEX; }
     /// Start of Embree's interval; it does not take negative ones.
     float start() const { return std::max(0.0f, ray.tMin - slack); }
@@ -98,34 +100,42 @@ void Query::prepare() {
     const gpu::BvhInstance& record = scene->table().records[instance];
     gpu::boxInterval(gpu::boxRay(ray.origin, ray.direction, scene->table().extent), record.lo, record.hi,
                      entry, exit);
-    triangleRay = gpu::triangleRay(origin, direction);
+    if (record.segments)
+        segmentRay = gpu::segmentRay(origin, direction);
+    else
+        triangleRay = gpu::triangleRay(origin, direction);
     box = gpu::boxRay(origin, direction, record.extent);
 }
 
-/// Where a vertex is at the time of the ray.
-glm::vec3 Query::cornerAt(const GeometryView& view, uint32_t vertex) const {
-    if (view.keys == 1) return view.positions[vertex];
+/// A triangle or segment at the time of the ray.
+Corners Query::cornersNow(const GeometryView& view, uint32_t primitive) const {
+    if (view.keys == 1) return cornersOf(view, primitive, 0);
     const gpu::KeyTime at = gpu::keyTime(ray.time, view.keys);
-    const glm::vec3* key = view.positions + at.first * size_t(view.vertexCount) + vertex;
-    return gpu::mixKeys(key[0], key[view.vertexCount], at.weight);
+    Corners corners = cornersOf(view, primitive, at.first);
+    const Corners next = cornersOf(view, primitive, at.first + 1);
+    for (size_t k = 0; k < corners.size(); ++k)
+        corners[k] = gpu::mixKeys(corners[k], next[k], at.weight);
+    return corners;
 }
 
-/// Tests one triangle of the current instance; true when it is the best hit so far. `proposed` is Embree's
-/// distance.
+/// Tests one triangle or segment of the current instance; true when it is the best hit so far. `proposed` is
+/// Embree's distance.
 bool Query::consider(uint32_t primitive, float proposed) {
     prepare();
     const GeometryView& g = scene->geometryOf(instance).view;
-    const glm::uvec3 i = g.triangles[primitive];
-    const glm::vec3 a = cornerAt(g, i.x), b = cornerAt(g, i.y), c = cornerAt(g, i.z);
+    const auto [a, b, c] = cornersNow(g, primitive);
     float t, u, v;
-    if (!gpu::canonicalHit(triangleRay, box, a, b, c, entry, exit, t, u, v)) {
+    const bool met = g.segments
+                         ? gpu::canonicalSegmentHit(segmentRay, box, a, b, c.x, c.y, entry, exit, t, u, v)
+                         : gpu::canonicalHit(triangleRay, box, a, b, c, entry, exit, t, u, v);
+    if (!met) {
         turnedDown = std::min(turnedDown, proposed);
         return false;
     }
     if (!(t > ray.tMin) || !gpu::before(t, instance, primitive, best.t, best.instance, best.primitive))
         return false;
     best = {instance, primitive, t, u, v};
-    onEdge = gpu::onEdge(u, v);
+    onEdge = !g.segments && gpu::onEdge(u, v);
     return true;
 }
 
@@ -157,6 +167,23 @@ void filterOccluded(const RTCFilterFunctionNArguments* args) {
         q.proposals.add({q.instance, primitive, t}, q.slack);
     else if (!q.consider(primitive, t))
         args->valid[0] = 0;
+}
+
+// Segments are tested at once, with nothing left to doubt: Embree only finds their boxes.
+
+void intersectSegment(const RTCIntersectFunctionNArguments* args) {
+    if (!args->valid[0]) return;
+    Query& q = *reinterpret_cast<Query*>(args->context);
+    float& tFar = reinterpret_cast<RTCRayHit*>(args->rayhit)->ray.tfar;
+    if (q.consider(args->primID, std::numeric_limits<float>::infinity()))
+        tFar = std::min(tFar, q.loosened(q.best.t));
+}
+
+void occludedSegment(const RTCOccludedFunctionNArguments* args) {
+    if (!args->valid[0]) return;
+    Query& q = *reinterpret_cast<Query*>(args->context);
+    if (q.consider(args->primID, std::numeric_limits<float>::infinity()))
+        reinterpret_cast<RTCRay*>(args->ray)->tfar = -std::numeric_limits<float>::infinity();
 }
 
 /// Traces the ray through one instance; `tFar` is Embree's interval, updated.
@@ -266,7 +293,7 @@ gpu::Hit decideNearest(Query& q) {
 }
 
 bool decideOccluded(Query& q) {
-    if (q.proposals.count == 0) return false;
+    if (q.proposals.count == 0) return q.found();
     considerProposals(q);
     if (q.found()) return true;
     occludedAll(q);
@@ -314,7 +341,8 @@ void inBatches(const EmbreeScene& scene, uint32_t mask, const gpu::Ray* rays, ui
 } // namespace
 
 EmbreeCallbacks embreeCallbacks() {
-    return {intersectInstance, occludedInstance, filterIntersect, filterOccluded};
+    return {intersectInstance, occludedInstance, filterIntersect,
+            filterOccluded,    intersectSegment, occludedSegment};
 }
 
 void embreeNearest(const EmbreeScene& scene, uint32_t mask, const gpu::Ray* rays, uint32_t count,

@@ -18,7 +18,12 @@ bool countMemory(void* counter, ssize_t bytes, bool) {
 }
 
 /// Embree's box test does not know the allowance of canonical hits (boxRay), so its boxes get it built in,
-/// four times over for origins outside the scene.
+/// four times over for origins outside the scene. `extent`: the largest |coordinate| of all boxes.
+void setBox(RTCBounds& out, const Bounds& box, float extent) {
+    const float m = 4.0f * gpu::BOX_ALLOWANCE * extent;
+    out = {box.lo.x - m, box.lo.y - m, box.lo.z - m, 0.0f, box.hi.x + m, box.hi.y + m, box.hi.z + m, 0.0f};
+}
+
 void instanceBounds(const RTCBoundsFunctionArguments* args) {
     const InstanceTable& table = static_cast<const EmbreeScene*>(args->geometryUserPtr)->table();
     const gpu::BvhInstance& i = table.records[args->primID];
@@ -27,8 +32,13 @@ void instanceBounds(const RTCBoundsFunctionArguments* args) {
         out = {1.0f, 1.0f, 1.0f, 0.0f, -1.0f, -1.0f, -1.0f, 0.0f};
         return;
     }
-    const float m = 4.0f * gpu::BOX_ALLOWANCE * table.extent;
-    out = {i.lo.x - m, i.lo.y - m, i.lo.z - m, 0.0f, i.hi.x + m, i.hi.y + m, i.hi.z + m, 0.0f};
+    setBox(out, {i.lo, i.hi}, table.extent);
+}
+
+void segmentBounds(const RTCBoundsFunctionArguments* args) {
+    const auto& g = *static_cast<const EmbreeGeometry*>(args->geometryUserPtr);
+    setBox(*args->bounds_o, cornersBox(g.view, cornersOf(g.view, args->primID, args->timeStep)),
+           g.bounds.extent());
 }
 
 } // namespace
@@ -95,6 +105,15 @@ void EmbreeScene::buildGeometry(EmbreeGeometry& g) {
     if (g.view.triangleCount == 0) return;
     g.scene = rtcNewScene(_device);
     rtcSetSceneFlags(g.scene, RTC_SCENE_FLAG_ROBUST);
+    const RTCGeometry geometry = g.view.segments ? makeSegments(g) : makeTriangles(g);
+    rtcSetGeometryUserData(geometry, &g);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(g.scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(g.scene);
+}
+
+RTCGeometry EmbreeScene::makeTriangles(EmbreeGeometry& g) const {
     const RTCGeometry triangles = rtcNewGeometry(_device, RTC_GEOMETRY_TYPE_TRIANGLE);
     rtcSetGeometryTimeStepCount(triangles, g.view.keys);
     for (uint32_t key = 0; key < g.view.keys; ++key)
@@ -103,19 +122,25 @@ void EmbreeScene::buildGeometry(EmbreeGeometry& g) {
                                    g.view.vertexCount);
     rtcSetSharedGeometryBuffer(triangles, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, g.view.triangles, 0,
                                sizeof(glm::uvec3), g.view.triangleCount);
-    rtcSetGeometryUserData(triangles, &g);
     rtcSetGeometryIntersectFilterFunction(triangles, _callbacks.intersectFilter);
     rtcSetGeometryOccludedFilterFunction(triangles, _callbacks.occludedFilter);
-    rtcCommitGeometry(triangles);
-    rtcAttachGeometry(g.scene, triangles);
-    rtcReleaseGeometry(triangles);
-    rtcCommitScene(g.scene);
+    return triangles;
+}
+
+RTCGeometry EmbreeScene::makeSegments(EmbreeGeometry& g) const {
+    const RTCGeometry segments = rtcNewGeometry(_device, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryTimeStepCount(segments, g.view.keys);
+    rtcSetGeometryUserPrimitiveCount(segments, g.view.triangleCount);
+    rtcSetGeometryBoundsFunction(segments, segmentBounds, nullptr);
+    rtcSetGeometryIntersectFunction(segments, _callbacks.intersectSegment);
+    rtcSetGeometryOccludedFunction(segments, _callbacks.occludedSegment);
+    return segments;
 }
 
 void EmbreeScene::buildTop() {
     _table = makeInstanceTable({_instances, _keys}, [this](uint32_t slot) {
         const EmbreeGeometry* g = slot < _geometries.size() ? _geometries[slot].get() : nullptr;
-        return g ? SlotShape{g->bounds, g->view.keys, g->view.triangleCount} : SlotShape{};
+        return g ? slotShape(g->view, g->bounds) : SlotShape{};
     });
     _geometryOf.assign(_instances.size(), nullptr);
     for (size_t i = 0; i < _instances.size(); ++i)

@@ -26,7 +26,9 @@ struct EmbreeGeometry {
 struct EmbreeCallbacks {
     RTCIntersectFunctionN intersect;
     RTCOccludedFunctionN occluded;
-    RTCFilterFunctionN intersectFilter, occludedFilter; ///< geometryUserPtr is the EmbreeGeometry
+    RTCFilterFunctionN intersectFilter, occludedFilter; ///< of triangles; geometryUserPtr: the EmbreeGeometry
+    RTCIntersectFunctionN intersectSegment;             ///< likewise
+    RTCOccludedFunctionN occludedSegment;
 };
 
 class EmbreeScene {
@@ -50,6 +52,8 @@ public:
 
 private:
     void buildGeometry(EmbreeGeometry& geometry);
+    RTCGeometry makeTriangles(EmbreeGeometry& geometry) const;
+    RTCGeometry makeSegments(EmbreeGeometry& geometry) const;
     void buildTop();
     void check(const char* doing) const;
 

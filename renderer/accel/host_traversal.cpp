@@ -79,7 +79,7 @@ private:
     void buildTop() {
         _table = makeInstanceTable({_records, _keys}, [this](uint32_t slot) {
             const HostGeometry* g = geometry(slot);
-            return g ? SlotShape{g->tree.bounds(), g->view.keys, g->view.triangleCount} : SlotShape{};
+            return g ? slotShape(g->view, g->tree.bounds()) : SlotShape{};
         });
         std::vector<Bounds> boxes;
         std::vector<uint32_t> instances; // with a mask

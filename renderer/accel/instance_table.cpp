@@ -102,6 +102,7 @@ InstanceTable makeInstanceTable(const InstanceView& view,
         record.keyCount = instance.keyCount;
         record.geometryKeys = shape.keys;
         record.triangleCount = shape.triangleCount;
+        record.segments = shape.segments ? 1 : 0;
         forPlaces(instance, view.keys, [&](const Placement& place, const Placement&, double) {
             const WorldBox w = worldBox(place, b);
             const glm::dvec3 reach = glm::abs(w.centre) + w.half;

@@ -26,7 +26,11 @@ struct InstanceTable {
 struct SlotShape {
     Bounds bounds; ///< object space, at all times of the shutter; empty when it holds no triangle
     uint32_t keys = 1, triangleCount = 0;
+    bool segments = false; ///< round ones in place of triangles
 };
+inline SlotShape slotShape(const GeometryView& view, const Bounds& bounds) {
+    return {bounds, view.keys, view.triangleCount, view.segments != nullptr};
+}
 
 /// `shapeOf(slot)` is what a geometry slot holds. Boxes are of all times of the shutter, and
 /// are grown by what rounding can move a ray when it is mapped to object space, so that the world box of an

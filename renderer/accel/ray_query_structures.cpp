@@ -41,10 +41,6 @@ RayQueryStructure::~RayQueryStructure() {
 }
 
 void RayQueryStructure::planTriangles(const GeometryView& view) {
-    const bool again = _structure && view.sameTopology && view.triangleCount == _builtPrimitives;
-    const bool update = again && _updatable && _updates < UPDATES_BEFORE_REBUILD;
-    _moves = again;
-    _updates = update ? _updates + 1 : 0;
     _geometry = {};
     _geometry.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR;
     _geometry.geometryType = VK_GEOMETRY_TYPE_TRIANGLES_KHR;
@@ -56,6 +52,25 @@ void RayQueryStructure::planTriangles(const GeometryView& view) {
     t.maxVertex = view.vertexCount - 1;
     t.indexType = VK_INDEX_TYPE_UINT32;
     t.indexData.deviceAddress = view.trianglesAddress;
+    planGeometry(view);
+}
+
+void RayQueryStructure::planSegments(const GeometryView& view, VkDeviceAddress boxes) {
+    _geometry = {};
+    _geometry.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR;
+    _geometry.geometryType = VK_GEOMETRY_TYPE_AABBS_KHR;
+    auto& b = _geometry.geometry.aabbs;
+    b.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_AABBS_DATA_KHR;
+    b.data.deviceAddress = boxes;
+    b.stride = sizeof(VkAabbPositionsKHR);
+    planGeometry(view);
+}
+
+void RayQueryStructure::planGeometry(const GeometryView& view) {
+    const bool again = _structure && view.sameTopology && view.triangleCount == _builtPrimitives;
+    const bool update = again && _updatable && _updates < UPDATES_BEFORE_REBUILD;
+    _moves = again;
+    _updates = update ? _updates + 1 : 0;
     plan(VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, view.triangleCount, update, _moves);
 }
 

@@ -32,6 +32,8 @@ public:
     /// updates, and updated from then on when `sameTopology`; after 32 updates it is built anew, since
     /// updates wear a tree out.
     void planTriangles(const GeometryView& view);
+    /// Likewise over the VkAabbPositionsKHR of its segments at `boxes`.
+    void planSegments(const GeometryView& view, VkDeviceAddress boxes);
     /// Plans a build over VkAccelerationStructureInstanceKHR[count] at `instances`.
     void planInstances(VkDeviceAddress instances, uint32_t count);
 
@@ -43,6 +45,7 @@ public:
     VkDeviceAddress address() const { return _address; }
 
 private:
+    void planGeometry(const GeometryView& view);
     void plan(VkAccelerationStructureTypeKHR type, uint32_t primitives, bool update, bool updatable);
 
     Device& _device;

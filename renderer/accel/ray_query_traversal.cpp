@@ -9,6 +9,7 @@
 #include "renderer/accel/geometry_bounds.h"
 #include "renderer/accel/geometry_slots.h"
 #include "renderer/accel/ray_query_structures.h"
+#include "shaders/shared/intersect.h"
 
 namespace hipr {
 namespace {
@@ -16,7 +17,8 @@ namespace {
 struct RayQueryGeometry {
     GeometryView view{};
     Bounds bounds;
-    std::unique_ptr<RayQueryStructure> structure; ///< null: no triangles
+    std::unique_ptr<RayQueryStructure> structure; ///< null: nothing in it
+    Buffer boxes;                                 ///< of segments, until they are built
     bool changed = false;
 };
 
@@ -30,6 +32,17 @@ VkAccelerationStructureInstanceKHR deviceInstance(const gpu::InstanceRecord& rec
     out.flags = VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR;
     out.accelerationStructureReference = box.mask ? structure : 0; // 0: inactive
     return out;
+}
+
+/// The driver's box test does not know the allowance of canonical hits (boxRay), so boxes get it built in,
+/// four times over for origins outside the geometry.
+std::vector<VkAabbPositionsKHR> segmentBoxes(const RayQueryGeometry& g) {
+    const float m = 4.0f * gpu::BOX_ALLOWANCE * g.bounds.extent();
+    std::vector<VkAabbPositionsKHR> boxes;
+    boxes.reserve(g.view.triangleCount);
+    for (const Bounds& b : primitiveBoxes(g.view))
+        boxes.push_back({b.lo.x - m, b.lo.y - m, b.lo.z - m, b.hi.x + m, b.hi.y + m, b.hi.z + m});
+    return boxes;
 }
 
 class RayQueryTraversal final : public DeviceTraversal {
@@ -58,6 +71,8 @@ public:
         for (const auto& g : _geometries)
             if (g && g->changed) planGeometry(*g, builds);
         buildStructures(_device, builds);
+        for (const auto& g : _geometries)
+            if (g) g->boxes = {};
         if (_instancesChanged) buildTop();
         _instancesChanged = false;
     }
@@ -73,7 +88,13 @@ private:
             return;
         }
         if (!g.structure) g.structure = std::make_unique<RayQueryStructure>(_device, _functions);
-        g.structure->planTriangles(g.view);
+        if (g.view.segments) {
+            const std::vector<VkAabbPositionsKHR> boxes = segmentBoxes(g);
+            g.boxes = _device.createFrom(boxes.data(), boxes.size(), "acceleration scratch");
+            g.structure->planSegments(g.view, g.boxes.address());
+        } else {
+            g.structure->planTriangles(g.view);
+        }
         builds.push_back(g.structure.get());
     }
 
@@ -87,7 +108,7 @@ private:
                                      " instances are too many for ray query");
         const InstanceTable table = makeInstanceTable({_records, {}}, [this](uint32_t slot) {
             const RayQueryGeometry* g = geometry(slot);
-            return g ? SlotShape{g->bounds} : SlotShape{};
+            return g ? slotShape(g->view, g->bounds) : SlotShape{};
         });
         std::vector<VkAccelerationStructureInstanceKHR> instances(_records.size());
         for (size_t i = 0; i < _records.size(); ++i) {

@@ -1,6 +1,7 @@
 /// @file traversal.h
-/// Ray traversal as a replaceable stage. All implementations report the same hits: the nearest one, equal distances
-/// decided by the smaller (instance, primitive), so a hit never depends on a tree's shape, its history or the backend.
+/// Ray traversal as a replaceable stage. All implementations report the same hits: the nearest one, equal
+/// distances decided by the smaller (instance, primitive), so a hit never depends on a tree's shape, its
+/// history or the backend.
 #pragma once
 
 #include <memory>
@@ -18,11 +19,14 @@ enum class TraversalKind { Host, Embree, Bvh, RayQuery };
 struct GeometryView {
     const glm::vec3* positions; ///< host copy; padded by at least 4 readable bytes behind the last vertex
     uint32_t vertexCount;
-    const glm::uvec3* triangles;
-    uint32_t triangleCount;
+    const glm::uvec3* triangles; ///< null: segments
+    uint32_t triangleCount;      ///< or of segments
     VkDeviceAddress positionsAddress, trianglesAddress;
-    bool sameTopology;          ///< only positions differ from the geometry that was in this slot: a refit will do
-    uint32_t keys = 1;          ///< of `positions`, one behind the other: GeometryRecord::keys
+    bool sameTopology; ///< only positions differ from the geometry that was in this slot: a refit will do
+    uint32_t keys = 1; ///< of `positions`, one behind the other: GeometryRecord::keys
+    const uint32_t* segments =
+        nullptr;                  ///< first vertices of round segments (shaders/shared/segment.h), or null
+    const float* radii = nullptr; ///< at the vertices of segments, at all times
 };
 
 /// All instances, in InstanceRecord order, and the keys of those that move.
@@ -32,13 +36,14 @@ struct InstanceView {
     VkDeviceAddress keysAddress = 0;
 };
 
-/// A queue of rays. Addresses for device traversals, pointers for host ones (null unless Device::hostMemory()).
+/// A queue of rays. Addresses for device traversals, pointers for host ones (null unless
+/// Device::hostMemory()).
 struct TraceQueue {
-    const Buffer* header;       ///< gpu::QueueHeader
+    const Buffer* header; ///< gpu::QueueHeader
     uint64_t headerOffset;
-    const Buffer* rays;         ///< gpu::Ray[]
-    const Buffer* results;      ///< nearest: gpu::Hit[]; occlusion: uint32_t[]
-    uint32_t mask;              ///< gpu::RAY_MASK_*
+    const Buffer* rays;    ///< gpu::Ray[]
+    const Buffer* results; ///< nearest: gpu::Hit[]; occlusion: uint32_t[]
+    uint32_t mask;         ///< gpu::RAY_MASK_*
 };
 
 class Traversal {

@@ -42,21 +42,17 @@ WideNode emptyNode() {
     return node;
 }
 
-/// Copies corners of a leaf's triangles, for all keys; their box.
+/// Copies corners of a leaf's triangles or segments, for all keys; their box.
 Bounds fillLeaf(WideLeaf* leaf, const GeometryView& view, uint32_t count) {
     Bounds box;
-    for (uint32_t key = 0; key < view.keys; ++key) {
-        const glm::vec3* positions = view.positions + key * size_t(view.vertexCount);
+    for (uint32_t key = 0; key < view.keys; ++key)
         for (uint32_t lane = 0; lane < count; ++lane) {
-            const glm::uvec3 t = view.triangles[leaf[key].primitive[lane]];
-            for (int k = 0; k < 3; ++k) {
-                const glm::vec3& p = positions[t[k]];
-                box.add(p);
+            const Corners corners = cornersOf(view, leaf[key].primitive[lane], key);
+            box.add(cornersBox(view, corners));
+            for (int k = 0; k < 3; ++k)
                 for (int axis = 0; axis < 3; ++axis)
-                    leaf[key].corner[k][axis][lane] = p[axis];
-            }
+                    leaf[key].corner[k][axis][lane] = corners[k][axis];
         }
-    }
     return box;
 }
 
@@ -197,7 +193,7 @@ void WideTree::build(const GeometryView& view) {
     if (view.triangleCount == 0) return;
     BvhOptions options;
     options.maxLeaf = options.block = WideLeaf::TRIANGLES;
-    const Bvh bvh = buildBvh(triangleBoxes(view), options);
+    const Bvh bvh = buildBvh(primitiveBoxes(view), options);
     _bounds = bvh.bounds;
     _keys = view.keys;
     _units.reserve(bvh.nodes.size() * (_keys * LEAF_UNITS + 3));

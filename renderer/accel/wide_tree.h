@@ -29,8 +29,9 @@ struct alignas(32) WideNode {
     uint32_t child[WIDE_CHILDREN];
 };
 
-/// Up to four triangles. Those of a mesh that deforms have one of these a key, one behind the other. Lanes
-/// without one have corners that are not numbers, which no ray hits.
+/// Up to four triangles, or round segments (see Corners in geometry_bounds.h). Those of a mesh that deforms
+/// have one of these a key, one behind the other. Lanes without one have corners that are not numbers, which
+/// no ray hits.
 struct alignas(32) WideLeaf {
     static constexpr uint32_t TRIANGLES = 4;
     float corner[3][3][TRIANGLES]; ///< corner, axis, triangle
@@ -40,7 +41,7 @@ static_assert(sizeof(WideNode) == 7 * sizeof(WideUnit) && sizeof(WideLeaf) == 5 
 
 class WideTree {
 public:
-    /// Over the triangles of a mesh.
+    /// Over the triangles or segments of a mesh.
     void build(const GeometryView& view);
     /// Over boxes; leaves are references to `ids[i] | WIDE_LEAF`.
     void build(const std::vector<Bounds>& boxes, const std::vector<uint32_t>& ids);

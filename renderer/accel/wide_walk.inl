@@ -292,6 +292,22 @@ HIPR_HOT void mixLeaves(WideLeaf& out, const WideLeaf& from, const WideLeaf& to,
     std::memcpy(out.primitive, from.primitive, sizeof(out.primitive));
 }
 
+/// Calls `test(leaf)` for the leaves on the way, as they are at the time of the ray, until it returns true.
+template <class Test>
+HIPR_HOT void walkLeaves(const Walk& w, const gpu::BvhInstance& record, const NodeRay& ray,
+                         const Test& test) {
+    const auto* tree = reinterpret_cast<const WideUnit*>(record.nodes);
+    const gpu::KeyTime at =
+        record.geometryKeys > 1 ? gpu::keyTime(w.ray.time, record.geometryKeys) : gpu::KeyTime{0, 0.0f};
+    walkTree<Leaves::Triangles>(tree, ray, w.best.t, [&](uint32_t child) {
+        const auto* leaf = reinterpret_cast<const WideLeaf*>(tree + child) + at.first;
+        if (record.geometryKeys == 1) return test(*leaf);
+        WideLeaf now;
+        mixLeaves(now, leaf[0], leaf[1], at.weight);
+        return test(now);
+    });
+}
+
 /// Of an instance that moves or deforms while the shutter is open. True when any hit will do and there is
 /// one.
 template <bool ANY>
@@ -299,18 +315,11 @@ __attribute__((noinline)) bool walkMoving(Walk& w, uint32_t index, float entry, 
     const gpu::BvhInstance& record = w.scene.instances[index];
     InstanceRay ray;
     setInstanceRay(ray, w, index, worldToObject(record, w.scene.keys, w.ray.time), entry, exit);
-    const auto* tree = reinterpret_cast<const WideUnit*>(record.nodes);
-    const gpu::KeyTime at =
-        record.geometryKeys > 1 ? gpu::keyTime(w.ray.time, record.geometryKeys) : gpu::KeyTime{0, 0.0f};
-    walkTree<Leaves::Triangles>(tree, ray.node, w.best.t, [&](uint32_t child) {
-        const auto* leaf = reinterpret_cast<const WideLeaf*>(tree + child) + at.first;
-        if (record.geometryKeys == 1) return testLeaf<ANY>(w, ray.leaf, *leaf);
-        WideLeaf now;
-        mixLeaves(now, leaf[0], leaf[1], at.weight);
-        return testLeaf<ANY>(w, ray.leaf, now);
-    });
+    walkLeaves(w, record, ray.node, [&](const WideLeaf& leaf) { return testLeaf<ANY>(w, ray.leaf, leaf); });
     return ANY && w.best.instance != gpu::NO_INDEX;
 }
+
+#include "renderer/accel/wide_segments.inl"
 
 /// True when any hit will do and there is one.
 template <bool ANY> HIPR_HOT bool walkInstance(Walk& w, const gpu::BoxRay& worldBox, uint32_t index) {
@@ -319,7 +328,9 @@ template <bool ANY> HIPR_HOT bool walkInstance(Walk& w, const gpu::BoxRay& world
     float entry, exit;
     gpu::boxInterval(worldBox, record.lo, record.hi, entry, exit);
     if (!(std::max(entry, w.ray.tMin) <= std::min(exit, w.best.t))) return false;
-    if (record.keyCount + record.geometryKeys > 1) return walkMoving<ANY>(w, index, entry, exit);
+    if (record.keyCount + record.geometryKeys + record.segments > 1)
+        return record.segments ? walkSegments<ANY>(w, index, entry, exit)
+                               : walkMoving<ANY>(w, index, entry, exit);
     InstanceRay ray;
     setInstanceRay(ray, w, index, record.worldToObject, entry, exit);
     const auto* tree = reinterpret_cast<const WideUnit*>(record.nodes);

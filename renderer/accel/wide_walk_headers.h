@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "renderer/accel/wide_walk.h"
-#include "shaders/shared/intersect.h"
+#include "shaders/shared/segment.h"
 
 #if defined(__x86_64__)
 #include <immintrin.h>

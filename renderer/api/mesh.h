@@ -42,7 +42,7 @@ struct MeshDesc {
 };
 
 /// A triangle-mesh primvar: `Vertex` values are per vertex of TriangleMesh::positions, `FaceVarying` three per
-/// triangle, `Uniform` one per triangle, `Constant` one. Never indexed.
+/// triangle, `Uniform` one per triangle (of segments: one per authored curve), `Constant` one. Never indexed.
 struct TrianglePrimvar {
     std::string name;
     Interpolation interpolation;
@@ -50,19 +50,27 @@ struct TrianglePrimvar {
     std::vector<float> values;
 };
 
-/// What the renderer stores: validated triangles. All index and size invariants hold.
+/// What the renderer stores: validated triangles, or round segments in their place. All index and size invariants hold.
 struct TriangleMesh {
     std::string name;
     std::vector<glm::vec3> positions;
     std::vector<glm::uvec3> triangles;         ///< counter-clockwise seen from the front
-    std::vector<uint32_t> triangleFace;        ///< authored face index (elementId) of each triangle
-    std::vector<uint16_t> triangleSlot;        ///< material slot of each triangle; empty: all slot 0
+    /// In place of triangles: the first vertex of each segment, of which the next one is the second. The vertices before
+    /// and behind these two exist, too; there the curve comes from and goes to, or they are those at its ends once more.
+    std::vector<uint32_t> segments;
+    std::vector<float> radii;                  ///< at the vertices of segments, 0 or more; else empty
+    std::vector<uint32_t> triangleFace;        ///< authored face or curve (elementId) of each triangle or segment
+    std::vector<uint16_t> triangleSlot;        ///< material slot of each of them; empty: all slot 0
     std::vector<glm::vec3> normals;            ///< shading normals, unit length; empty: use geometric normals
     Interpolation normalInterpolation = Interpolation::Vertex; ///< Vertex or FaceVarying
     std::vector<TrianglePrimvar> primvars;
     bool doubleSided = false;
     std::vector<MeshKey> motion; ///< by rising time; below two it does not deform. The rest is at the frame's time
     glm::vec3 boundsMin{0.f}, boundsMax{0.f}; ///< of all times
+
+    bool empty() const { return triangles.empty() && segments.empty(); }
+    /// Triangles or segments.
+    uint32_t primitiveCount() const { return uint32_t(triangles.size() + segments.size()); }
 };
 
 /// Validates, refines (OpenSubdiv) and triangulates. Never throws on bad data: broken faces, points and
@@ -84,7 +92,7 @@ std::shared_ptr<const TriangleMesh> updatePoints(const TriangleMesh& old, const 
 using MeshShape = std::pair<float, std::shared_ptr<const TriangleMesh>>;
 
 /// `mesh` with the shapes that it has at other times, which are to be in order of time. Null when one of them has another
-/// number of vertices or triangles.
+/// number of vertices or triangles, or other segments.
 std::shared_ptr<const TriangleMesh> withMotion(const TriangleMesh& mesh, const std::vector<MeshShape>& shapes);
 
 } // namespace hipr

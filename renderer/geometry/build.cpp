@@ -201,12 +201,15 @@ bool keepsTriangles(const TriangleMesh& old, const MeshDesc& desc) {
 } // namespace
 
 void setBounds(TriangleMesh& mesh) {
-    if (mesh.triangles.empty()) return;
+    if (mesh.empty()) return;
     const auto addRange = [&](const auto& range, Bounds bounds) {
         for (size_t t = range.begin(); t < range.end(); ++t) {
-            for (int k = 0; k < 3; ++k) {
-                const glm::vec3& p = mesh.positions[mesh.triangles[t][k]];
-                bounds.add({p, p});
+            for (int k = 0; k < (mesh.segments.empty() ? 3 : 2); ++k) {
+                const size_t vertex =
+                    mesh.segments.empty() ? mesh.triangles[t][k] : mesh.segments[t] + size_t(k);
+                const glm::vec3& p = mesh.positions[vertex];
+                const glm::vec3 half(mesh.segments.empty() ? 0.f : mesh.radii[vertex]);
+                bounds.add({p - half, p + half});
             }
         }
         return bounds;
@@ -215,7 +218,7 @@ void setBounds(TriangleMesh& mesh) {
         a.add(b);
         return a;
     };
-    const tbb::blocked_range<size_t> all(0, mesh.triangles.size(), 16384);
+    const tbb::blocked_range<size_t> all(0, mesh.primitiveCount(), 16384);
     const Bounds bounds = tbb::parallel_reduce(all, Bounds{}, addRange, join);
     mesh.boundsMin = bounds.min;
     mesh.boundsMax = bounds.max;

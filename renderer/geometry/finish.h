@@ -9,7 +9,7 @@
 
 namespace hipr::geometry {
 
-/// Bounds of the vertices that triangles use; authored points may hold unused ones anywhere.
+/// Bounds of the vertices that triangles and segments use; authored points may hold unused ones anywhere.
 void setBounds(TriangleMesh& mesh);
 
 /// The renderer keeps going when one mesh is too large for the machine.

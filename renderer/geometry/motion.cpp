@@ -10,7 +10,8 @@ std::shared_ptr<const TriangleMesh> withMotion(const TriangleMesh& mesh,
     moving->motion.clear();
     for (const auto& [time, shape] : shapes) {
         const bool alike = shape->positions.size() == mesh.positions.size() &&
-                           shape->triangles.size() == mesh.triangles.size();
+                           shape->triangles.size() == mesh.triangles.size() &&
+                           shape->segments == mesh.segments;
         if (!alike) return nullptr;
         // Polygons may be cut otherwise where their corners lie otherwise; then only what is told of vertices
         // fits.
@@ -22,6 +23,8 @@ std::shared_ptr<const TriangleMesh> withMotion(const TriangleMesh& mesh,
         TriangleMesh box;
         box.positions = shape->positions;
         box.triangles = mesh.triangles;
+        box.segments = mesh.segments;
+        box.radii = mesh.radii;
         geometry::setBounds(box);
         moving->boundsMin = glm::min(moving->boundsMin, box.boundsMin);
         moving->boundsMax = glm::max(moving->boundsMax, box.boundsMax);

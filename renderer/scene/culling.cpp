@@ -19,6 +19,7 @@ uint32_t cullFlags(CullStyle style, bool doubleSided) {
 
 /// Faces are compared, not triangles: the two sides of a square may have other diagonals.
 bool hasFacesBackToBack(const TriangleMesh& mesh) {
+    if (mesh.triangles.empty()) return false;
     std::map<std::array<float, 3>, uint32_t> places;
     std::vector<uint32_t> place;
     for (const glm::vec3& p : mesh.positions)

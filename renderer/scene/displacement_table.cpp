@@ -92,7 +92,8 @@ void DisplacementTable::update(GeometryTable& geometries, ObjectTable& objects, 
         const auto [entry, added] = _displaced.try_emplace(id, Entry{geometry->mesh, slots});
         if (!added && entry->second.slots == slots && !_replaced.count(id)) continue;
         entry->second.slots = slots;
-        show(id, displacedMesh(*entry->second.base, slots));
+        const auto& base = entry->second.base; // round segments have no surface to move
+        show(id, base->segments.empty() ? displacedMesh(*base, slots) : base);
     }
     _replaced.clear();
     for (auto it = _textures.begin(); it != _textures.end();)

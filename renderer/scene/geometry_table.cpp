@@ -31,6 +31,7 @@ bool hasTranslucency(const TriangleMesh& mesh) {
 
 uint64_t hostBytesOf(const TriangleMesh& mesh) {
     uint64_t bytes = mesh.positions.size() * sizeof(glm::vec3) + mesh.triangles.size() * sizeof(glm::uvec3) +
+                     mesh.segments.size() * sizeof(uint32_t) + mesh.radii.size() * sizeof(float) +
                      mesh.triangleFace.size() * sizeof(uint32_t) +
                      mesh.triangleSlot.size() * sizeof(uint16_t) + mesh.normals.size() * sizeof(glm::vec3);
     for (const TrianglePrimvar& primvar : mesh.primvars)
@@ -51,7 +52,9 @@ Change GeometryTable::set(GeometryId id, std::shared_ptr<const TriangleMesh> mes
         _freeSlots.pop_back();
     } else {
         const bool sameShape = entry.mesh->positions == mesh->positions &&
-                               entry.mesh->triangles == mesh->triangles && entry.mesh->motion == mesh->motion;
+                               entry.mesh->triangles == mesh->triangles &&
+                               entry.mesh->segments == mesh->segments && entry.mesh->radii == mesh->radii &&
+                               entry.mesh->motion == mesh->motion;
         if (sameShape && equalAttributes(*entry.mesh, *mesh)) {
             entry.mesh = std::move(mesh);
             return Change::None;
@@ -89,6 +92,11 @@ void GeometryTable::setShutter(const Shutter& shutter) {
     for (auto& [id, entry] : _entries)
         if (!entry.mesh->motion.empty())
             entry.shapePending = entry.attributesPending = _recordsPending = true;
+}
+
+bool GeometryTable::anySegments() const {
+    return std::any_of(_entries.begin(), _entries.end(),
+                       [](const auto& e) { return !e.second.mesh->segments.empty(); });
 }
 
 bool GeometryTable::anyMotion() const {
@@ -131,14 +139,17 @@ void GeometryTable::uploadShape(Entry& entry) {
     if (entry.keys > 1) entry.keyPositions = keyed(mesh, &MeshKey::positions, _shutter, entry.keys);
     const uint64_t positions = // host traversals read 4 bytes beyond the last vertex
         pack.add(entry.keys > 1 ? entry.keyPositions : mesh.positions, 16);
-    const uint64_t triangles = pack.add(mesh.triangles);
+    const bool segments = !mesh.segments.empty();
+    const uint64_t triangles = segments ? pack.add(mesh.segments) : pack.add(mesh.triangles);
+    const uint64_t radii = pack.add(mesh.radii);
     _retired.push_back(std::move(entry.shape));
     entry.shape = _device.createBuffer(pack.bytes(), MemoryUse::Device, "Geometry");
     pack.upload(_device, entry.shape);
     entry.record.positions = entry.shape.address() + positions;
     entry.record.triangles = entry.shape.address() + triangles;
+    entry.record.radii = segments ? entry.shape.address() + radii : 0;
     entry.record.vertexCount = uint32_t(mesh.positions.size());
-    entry.record.triangleCount = uint32_t(mesh.triangles.size());
+    entry.record.triangleCount = mesh.primitiveCount();
     entry.record.keys = entry.keys;
     if (entry.shape.mapped()) entry.keyPositions = {};
 }
@@ -175,6 +186,7 @@ void GeometryTable::uploadAttributes(Entry& entry) {
 void GeometryTable::submit(Entry& entry, Traversal& traversal) {
     const TriangleMesh& mesh = *entry.mesh;
     const bool sameTopology = entry.submitted && entry.submitted->triangles == mesh.triangles &&
+                              entry.submitted->segments == mesh.segments &&
                               entry.submitted->positions.size() == mesh.positions.size() &&
                               entry.submittedKeys == entry.keys;
     // Where kernels and host share memory the traversal reads the same copy as they do.
@@ -187,8 +199,10 @@ void GeometryTable::submit(Entry& entry, Traversal& traversal) {
                       entry.record.positions,
                       entry.record.triangles,
                       sameTopology,
-                      entry.keys};
-    traversal.setGeometry(entry.slot, mesh.triangles.empty() ? nullptr : &view);
+                      entry.keys,
+                      mesh.segments.empty() ? nullptr : mesh.segments.data(),
+                      mesh.radii.data()};
+    traversal.setGeometry(entry.slot, mesh.empty() ? nullptr : &view);
     entry.submitted = entry.mesh;
     entry.submittedKeys = entry.keys;
 }

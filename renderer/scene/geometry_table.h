@@ -39,6 +39,8 @@ public:
     void setShutter(const Shutter& shutter);
     /// Whether any mesh deforms.
     bool anyMotion() const;
+    /// Whether any is made of round segments.
+    bool anySegments() const;
 
     /// Uploads what changed and hands new shapes to the traversal, which builds them in its own commit().
     void commit(Traversal& traversal);

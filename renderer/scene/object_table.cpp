@@ -128,7 +128,7 @@ const Geometry* ObjectTable::shownGeometry(Entry& entry, const GeometryTable& ge
     if (!entry.desc || !entry.desc->visible || entry.desc->geometry == GeometryId::None) return nullptr;
     const Geometry* geometry = geometries.find(entry.desc->geometry);
     if (!geometry) reportMissing(entry, "its geometry is");
-    return geometry && !geometry->mesh->triangles.empty() ? geometry : nullptr;
+    return geometry && !geometry->mesh->empty() ? geometry : nullptr;
 }
 
 void ObjectTable::findUsable(Entry& entry) {

@@ -150,6 +150,8 @@ void dumpMesh(SceneDump& dump, const TriangleMesh& mesh) {
     SceneDump::Element& out = dump.element("geometry", mesh.name);
     out.fact("positions", mesh.positions.size(), contentHash(mesh.positions));
     out.fact("triangles", mesh.triangles.size(), contentHash(mesh.triangles));
+    if (!mesh.segments.empty())
+        out.fact("segments", mesh.segments.size(), contentHash(mesh.segments), contentHash(mesh.radii));
     out.fact("faces", mesh.triangleFace.size(), contentHash(mesh.triangleFace));
     out.fact("slots", mesh.triangleSlot.size(), contentHash(mesh.triangleSlot));
     out.fact("normals", name(mesh.normalInterpolation), mesh.normals.size(), contentHash(mesh.normals));

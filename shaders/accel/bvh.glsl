@@ -3,7 +3,8 @@
 #define HIPR_ACCEL_BVH_GLSL
 #include "shared/references.glsl"
 #include "shared/bvh.h"
-#include "shared/intersect.h"
+#include "shared/features.glsl"
+#include "shared/segment.h"
 #include "accel/motion.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer BvhSceneRef { BvhScene v; };
@@ -31,6 +32,8 @@ Hit traceBvh(uint64_t scene, Ray ray, uint mask, const bool any) {
     uint nextKey = 0u; // distance of a triangle's keys; 0: it does not deform
     float keyWeight = 0.0;
     TriangleRay triangleRay_ = TriangleRay(vec3(0.0), 0u, vec3(0.0));
+    bool segments = false; // of them `instance` is made
+    SegmentRay segmentRay_ = SegmentRay(vec3(0.0), vec3(0.0), 0.0);
     float entry = 0.0, exit = 0.0; // of the instance's world box
 
     uint stack[BVH_STACK];
@@ -61,7 +64,11 @@ Hit traceBvh(uint64_t scene, Ray ray, uint mask, const bool any) {
                     vec3 origin = mapPoint(record.worldToObject, ray.origin);
                     vec3 direction = mapDirection(record.worldToObject, ray.direction);
                     box = boxRay(origin, direction, record.extent);
-                    triangleRay_ = triangleRay(origin, direction);
+                    segments = sceneHas(SCENE_HAS_SEGMENTS) && record.segments != 0u;
+                    if (segments)
+                        segmentRay_ = segmentRay(origin, direction);
+                    else
+                        triangleRay_ = triangleRay(origin, direction);
                     nodes = record.nodes;
                     triangles = record.triangles;
                     nextKey = 0u;
@@ -88,8 +95,12 @@ Hit traceBvh(uint64_t scene, Ray ray, uint mask, const bool any) {
                     t.c = mixKeys(t.c, next.c, keyWeight);
                 }
                 float distance, u, v;
-                if (canonicalHit(triangleRay_, box, t.a, t.b, t.c, entry, exit, distance, u, v) &&
-                    distance > ray.tMin &&
+                bool met;
+                if (segments)
+                    met = canonicalSegmentHit(segmentRay_, box, t.a, t.b, t.c.x, t.c.y, entry, exit, distance, u, v);
+                else
+                    met = canonicalHit(triangleRay_, box, t.a, t.b, t.c, entry, exit, distance, u, v);
+                if (met && distance > ray.tMin &&
                     before(distance, instance, t.primitive, hit.t, hit.instance, hit.primitive))
                     hit = Hit(instance, t.primitive, distance, u, v);
             }

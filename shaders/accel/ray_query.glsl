@@ -4,7 +4,7 @@
 #extension GL_EXT_ray_query : require
 #include "shared/references.glsl"
 #include "shared/bvh.h"
-#include "shared/intersect.h"
+#include "shared/segment.h"
 
 layout(set = 0, binding = 0) uniform accelerationStructureEXT sceneTree;
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer BvhSceneRef { BvhScene v; };
@@ -45,13 +45,27 @@ void consider(inout Candidates c, SceneRecord scene, Ray ray, uint instance, uin
     }
 }
 
-// Two unit vectors across a unit direction: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
-void acrossDirection(vec3 d, out vec3 x, out vec3 y) {
-    float s = d.z < 0.0 ? -1.0 : 1.0;
-    float a = -1.0 / (s + d.z);
-    float b = d.x * d.y * a;
-    x = vec3(1.0 + s * d.x * d.x * a, s * b, -s * d.x);
-    y = vec3(b, s + d.y * d.y * a, -d.y);
+// Tests a segment in whose box the ray is, and returns its distance, QUERY_FAR: a miss.
+float considerSegment(inout Candidates c, SceneRecord scene, Ray ray, uint instance, uint primitive) {
+    BvhScene top = BvhSceneRef(scene.bvh).v;
+    BvhInstance record = BvhInstanceRef(top.instances).v[instance];
+    GeometryRecord geometry = GeometryRef(scene.geometries).v[InstanceRef(scene.instances).v[instance].geometry];
+    uint first = UintRef(geometry.triangles).v[primitive];
+    vec3 origin = mapPoint(record.worldToObject, ray.origin);
+    vec3 direction = mapDirection(record.worldToObject, ray.direction);
+    float entry, exit, t, u, v;
+    boxInterval(boxRay(ray.origin, ray.direction, top.extent), record.lo, record.hi, entry, exit);
+    if (!canonicalSegmentHit(segmentRay(origin, direction), boxRay(origin, direction, record.extent),
+                             Vec3Ref(geometry.positions).v[first], Vec3Ref(geometry.positions).v[first + 1u],
+                             FloatRef(geometry.radii).v[first], FloatRef(geometry.radii).v[first + 1u], entry, exit, t,
+                             u, v) ||
+        !(t > ray.tMin))
+        return QUERY_FAR;
+    if (before(t, instance, primitive, c.best.t, c.best.instance, c.best.primitive)) {
+        c.best = Hit(instance, primitive, t, u, v);
+        c.edge = false;
+    }
+    return t;
 }
 
 // The nearest hit, or with `any` some hit. In three kinds of query: search (the driver's nearest hit), window (all its
@@ -62,7 +76,7 @@ Hit traceRayQuery(SceneRecord scene, Ray ray, uint mask, const bool any) {
     if (scene.bvh == 0ul || !traceable(ray.origin, ray.direction, ray.tMin, ray.tMax)) return c.best;
     float allowance = rayAllowance(ray.origin, BvhSceneRef(scene.bvh).v.extent);
     vec3 across0, across1;
-    acrossDirection(ray.direction, across0, across1);
+    acrossAxis(ray.direction, across0, across1);
 
     float last = min(ray.tMax * (1.0 + QUERY_WINDOW), QUERY_FAR);
     float from = ray.tMin, to = last;
@@ -78,9 +92,17 @@ Hit traceRayQuery(SceneRecord scene, Ray ray, uint mask, const bool any) {
         uint flags = searching && !any ? gl_RayFlagsOpaqueEXT : gl_RayFlagsNoOpaqueEXT;
         rayQueryInitializeEXT(query, sceneTree, flags, mask, origin, from, ray.direction, to);
         while (rayQueryProceedEXT(query)) {
-            consider(c, scene, ray, uint(rayQueryGetIntersectionInstanceIdEXT(query, false)),
-                     uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false)),
-                     searching ? rayQueryGetIntersectionTEXT(query, false) : QUERY_FAR);
+            const uint instance = uint(rayQueryGetIntersectionInstanceIdEXT(query, false));
+            const uint primitive = uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false));
+            if (rayQueryGetIntersectionTypeEXT(query, false) == gl_RayQueryCandidateIntersectionAABBEXT) {
+                const float t = considerSegment(c, scene, ray, instance, primitive);
+                const bool none = rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT;
+                if (t >= from && t <= (none ? to : rayQueryGetIntersectionTEXT(query, true)))
+                    rayQueryGenerateIntersectionEXT(query, t);
+            } else {
+                consider(c, scene, ray, instance, primitive,
+                         searching ? rayQueryGetIntersectionTEXT(query, false) : QUERY_FAR);
+            }
             if (any && c.best.instance != NO_INDEX) return c.best;
         }
         if (searching) {
@@ -96,7 +118,7 @@ Hit traceRayQuery(SceneRecord scene, Ray ray, uint mask, const bool any) {
             searching = false;
             side = any ? 1u : 0u;
         } else {
-            bool found = c.best.instance != NO_INDEX;
+            bool found = c.best.instance != NO_INDEX && c.best.t <= to; // a segment may be behind
             if (found && !c.edge) return c.best;
             if (side < QUERY_SIDES) {
                 ++side;

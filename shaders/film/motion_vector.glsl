@@ -15,13 +15,11 @@ vec2 filmPoint(TraceRecord trace, vec3 p, float time) {
     return (0.5 * clip.xy / clip.w + 0.5) * vec2(trace.width, trace.height);
 }
 
-// Where the point of a triangle that was hit is at a time of the shutter.
+// Where the point of the surface that was hit is at a time of the shutter.
 vec3 placeAt(SceneRecord scene, Hit hit, float time) {
     ShadingPoint point = shadingPoint(scene, hit);
     moveTo(point, scene, time);
-    const Corners corners = cornersAt(point, point.geometry.positions, point.vertices, point.geometry.vertexCount);
-    const vec3 p = corners.a + (corners.b - corners.a) * point.uv.x + (corners.c - corners.a) * point.uv.y;
-    return point.instance.objectToWorld * vec4(p, 1.0);
+    return point.instance.objectToWorld * vec4(surfaceAt(point).position, 1.0);
 }
 
 // From where it is when the shutter opens to where it is when it closes, in pixels, x to the right and y up.

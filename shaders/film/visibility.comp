@@ -49,7 +49,7 @@ void storeAov(TraceRecord trace, AovTarget target, uint pixel, bool seen, Shadin
         store(target, pixel, seen ? camera.worldToView * vec4(position, 1.0) : vec3(0.0));
         break;
     case AOV_PATCH_COORD:
-        store(target, pixel, seen ? vec3(point.uv, 0.0) : vec3(0.0));
+        store(target, pixel, seen ? vec3(point.uv.x, point.onSegment ? point.place.y : point.uv.y, 0.0) : vec3(0.0));
         break;
     case AOV_PRIM_ID:
         store(target, pixel, seen ? point.instance.primId : -1);

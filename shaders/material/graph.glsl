@@ -66,16 +66,11 @@ vec4 graphOperand(GraphReader reader, uint operand) {
 
 // Edges of the triangle in world space, and the front side's normal.
 mat3 graphFrame(ShadingPoint point) {
-    const Corners p = cornersAt(point, point.geometry.positions, point.vertices, point.geometry.vertexCount);
+    const PointSurface s = surfaceAt(point);
     mat3 toWorld = mat3(point.instance.objectToWorld);
-    vec3 e1 = toWorld * (p.b - p.a), e2 = toWorld * (p.c - p.a);
-    vec3 ng = triangleNormal(e1, e2, (point.instance.flags & INSTANCE_MIRRORED) != 0u);
+    vec3 e1 = toWorld * s.e1, e2 = toWorld * s.e2;
+    vec3 ng = frontNormal(point, s.outwards, e1, e2);
     return mat3(e1, e2, interpolatedNormal(point, normalizeOr(ng, vec3(0.0, 0.0, 1.0))));
-}
-
-vec3 graphPosition(ShadingPoint point) {
-    const Corners p = cornersAt(point, point.geometry.positions, point.vertices, point.geometry.vertexCount);
-    return p.a * (1.0 - point.uv.x - point.uv.y) + p.b * point.uv.x + p.c * point.uv.y;
 }
 
 // Between object and world space: `immediate` as for GRAPH_TRANSFORM.
@@ -130,7 +125,7 @@ vec4 graphRead(inout GraphReader reader, uint op, uint immediate, vec4 a) {
         value = sampleTextureNode(reader.scene, node, transformSt(node, st), area, reader.point.levelShare);
     if (reads || op == GRAPH_TEXTURE) return selectChannel(value, node.channel);
     if (op == GRAPH_POSITION) {
-        vec3 p = graphPosition(reader.point);
+        vec3 p = surfaceAt(reader.point).position;
         return vec4(immediate == GRAPH_WORLD ? reader.point.instance.objectToWorld * vec4(p, 1.0) : p, 1.0);
     }
     if (op == GRAPH_TRANSFORM) return vec4(graphTransform(reader.point.instance, a.xyz, immediate), a.w);

@@ -2,6 +2,7 @@
 #ifndef HIPR_MATERIAL_PRIMVAR_GLSL
 #define HIPR_MATERIAL_PRIMVAR_GLSL
 #extension GL_EXT_control_flow_attributes : require
+#include "shared/features.glsl"
 #include "shared/references.glsl"
 
 // A primvar's values at the three corners of the hit triangle. One component is spread to three, missing ones are 0, and
@@ -38,7 +39,10 @@ PrimvarCorners findPrimvar(InstanceRecord instance, GeometryRecord geometry, uin
     if (!corners.found) return corners;
     uvec3 elements = vertices;
     if (primvar.interpolation == INTERPOLATION_CONSTANT) elements = uvec3(0u);
-    if (primvar.interpolation == INTERPOLATION_UNIFORM) elements = uvec3(primitive);
+    if (primvar.interpolation == INTERPOLATION_UNIFORM) {
+        const bool curves = sceneHas(SCENE_HAS_SEGMENTS) && geometry.radii != 0ul;
+        elements = uvec3(curves ? UintRef(geometry.triangleFace).v[primitive] : primitive);
+    }
     if (primvar.interpolation == INTERPOLATION_FACE_VARYING) elements = 3u * primitive + uvec3(0u, 1u, 2u);
     [[dont_unroll]] for (int k = 0; k < 3; ++k) {
         corners.a = corners.b; // rotates through the corners, so that one read serves all three

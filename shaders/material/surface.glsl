@@ -33,14 +33,11 @@ vec3 applyNormalMap(vec3 n, vec3 mapped, vec3 e1, vec3 e2, vec4 stEdges) {
 
 // Geometry of a hit; the rest of the surface is left to the material.
 void setGeometry(inout Surface s, ShadingPoint point, vec3 wo, out vec3 e1, out vec3 e2) {
-    const Corners positions = cornersAt(point, point.geometry.positions, point.vertices, point.geometry.vertexCount);
-    vec3 p0 = positions.a;
-    vec3 edge1 = positions.b - p0;
-    vec3 edge2 = positions.c - p0;
-    s.position = point.instance.objectToWorld * vec4(p0 + edge1 * point.uv.x + edge2 * point.uv.y, 1.0);
-    e1 = mat3(point.instance.objectToWorld) * edge1;
-    e2 = mat3(point.instance.objectToWorld) * edge2;
-    s.ng = normalizeOr(triangleNormal(e1, e2, (point.instance.flags & INSTANCE_MIRRORED) != 0u), wo);
+    const PointSurface at = surfaceAt(point);
+    s.position = point.instance.objectToWorld * vec4(at.position, 1.0);
+    e1 = mat3(point.instance.objectToWorld) * at.e1;
+    e2 = mat3(point.instance.objectToWorld) * at.e2;
+    s.ng = normalizeOr(frontNormal(point, at.outwards, e1, e2), wo);
     s.frontFacing = dot(s.ng, wo) >= 0.0;
     s.restless = restlessHeight(e1, e2);
 }
@@ -119,6 +116,7 @@ Surface evaluateSurface(SceneRecord scene, Hit hit, Ray ray, RayFootprint footpr
 
     s.material = materialIndex(scene, point);
     MaterialRecord material = MaterialRef(scene.materials).v[s.material];
+    if (point.onSegment) material.flags |= MATERIAL_THIN_WALLED; // rays do not come out of it again
     if (!footprint.sampled || (material.flags & MATERIAL_EMISSIVE) == 0u) {
         const vec3 across = cross(e1, e2); // the cone's cross-section, tilted
         point.footprint = footprint.width * footprint.width / max(abs(dot(across, wo)), 1e-3 * length(across) + 1e-30);
@@ -137,6 +135,7 @@ Surface evaluateSurface(SceneRecord scene, Hit hit, Ray ray, RayFootprint footpr
     }
     s.ns = bendNormal(s.ns, s.ng, wo);
     s.tangent = frameAround(s.ns)[0];
+    if (point.onSegment) s.tangent = normalizeOr(e1 - s.ns * dot(s.ns, e1), s.tangent);
     if (inputs.tangentEdges != vec4(0.0)) s.tangent = tangentAlong(s.ns, s.tangent, e1, e2, inputs.tangentEdges);
     setDirections(s, inputs, wo);
     s.albedoTable = scene.specularAlbedo;

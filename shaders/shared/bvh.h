@@ -27,7 +27,8 @@ struct BvhNode {
     uint pad1;
 };
 
-// Leaf triangle, vertices inlined: one fetch instead of three dependent ones.
+// Leaf triangle, vertices inlined: one fetch instead of three dependent ones. A round segment (segment.h) has its second
+// vertex in b, and the radii at both in c.x and c.y.
 struct BvhTriangle {
     vec3 a;
     vec3 b;
@@ -47,7 +48,9 @@ struct BvhInstance {
     uint firstKey;           // as InstanceRecord has them
     uint keyCount;
     uint geometryKeys;       // GeometryRecord::keys
-    uint triangleCount;
+    uint triangleCount;      // or of segments
+    uint segments;           // 1: the geometry is made of round segments, 0: of triangles
+    uint pad;
 };
 
 // Root of the table, at SceneRecord::bvh.

@@ -9,10 +9,12 @@ HIPR_CONST uint NO_INDEX = 0xffffffffu;
 HIPR_CONST uint GEOMETRY_DOUBLE_SIDED = 1u;
 HIPR_CONST uint GEOMETRY_NORMALS_FACE_VARYING = 2u; // else per vertex; normals == 0: geometric normals
 
-// One triangle mesh.
+// One triangle mesh, or round segments (segment.h): then `triangles` has the first vertex of each, the second one is the
+// next, and what is said of triangles below is meant of segments.
 struct GeometryRecord {
     uint64_t positions;      // vec3[keys][vertexCount]
-    uint64_t triangles;      // uvec3[triangleCount]
+    uint64_t triangles;      // uvec3[triangleCount], or uint[triangleCount]
+    uint64_t radii;          // float[vertexCount] of segments; 0: triangles
     uint64_t normals;        // vec3[keys][vertexCount or 3 * triangleCount]
     uint64_t triangleFace;   // uint[triangleCount]
     uint64_t triangleSlot;   // uint16_t[triangleCount], 0 address: slot 0
@@ -72,7 +74,7 @@ struct Ray {
     float time;              // of the shutter: 0 when it opens, 1 when it closes
 };
 
-// The nearest hit. u, v are the barycentric weights of vertices 1 and 2.
+// The nearest hit. u, v are the barycentric weights of vertices 1 and 2, or those of intersectSegment().
 struct Hit {
     uint instance;           // NO_INDEX: miss
     uint primitive;
@@ -133,11 +135,12 @@ HIPR_CONST uint SCENE_HAS_MOTION = 128u;        // some object moves or deforms 
 HIPR_CONST uint FILM_SORTS_LIGHT = 256u;        // the film has light path expressions
 HIPR_CONST uint SCENE_HAS_CULLING = 512u;       // some instance has INSTANCE_CULL_*
 HIPR_CONST uint SCENE_HAS_NESTING = 1024u;      // some refractive material has a MaterialRecord::priority other than 0
+HIPR_CONST uint SCENE_HAS_SEGMENTS = 2048u;     // some geometry is made of round segments
 HIPR_CONST uint SCENE_HAS_DIRECTIONS = 8192u;   // some material's program makes INPUT_COAT_NORMAL or a tangent
 // Those that kernels which shade are specialised by: what the scene does not have is not in their code.
 HIPR_CONST uint SCENE_SHADING_FEATURES =
     SCENE_HAS_MESH_LIGHTS | SCENE_HAS_OPENPBR | SCENE_HAS_GRAPHS | SCENE_HAS_MOTION | FILM_SORTS_LIGHT |
-    SCENE_HAS_CULLING | SCENE_HAS_NESTING | SCENE_HAS_DIRECTIONS;
+    SCENE_HAS_CULLING | SCENE_HAS_NESTING | SCENE_HAS_SEGMENTS | SCENE_HAS_DIRECTIONS;
 
 HIPR_SHARED_END
 #endif

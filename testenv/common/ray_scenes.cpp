@@ -1,5 +1,6 @@
 #include "testenv/common/ray_scenes.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -16,6 +17,23 @@ gpu::Ray rayFrom(const glm::vec3& origin, const glm::vec3& direction) {
 
 glm::vec3 toWorld(const gpu::InstanceRecord& i, const glm::vec3& p) {
     return i.objectToWorld * glm::vec4(p, 1.0f);
+}
+
+/// A corner, a point of an edge and an inner one of some triangle; of a segment a vertex, a point of the axis
+/// and one next to it.
+std::array<glm::vec3, 3> aims(const TriangleMesh& mesh, Random& random) {
+    if (!mesh.segments.empty()) {
+        const uint32_t i = mesh.segments[random.below(uint32_t(mesh.segments.size()))];
+        const glm::vec3 a = mesh.positions[i], b = mesh.positions[i + 1];
+        const glm::vec3 on = glm::mix(a, b, random.between(0.0f, 1.0f));
+        return {a, on, on + 1.1f * mesh.radii[i] * random.direction()};
+    }
+    const glm::uvec3 triangle = mesh.triangles[random.below(uint32_t(mesh.triangles.size()))];
+    const uint32_t first = random.below(3);
+    const glm::vec3 a = mesh.positions[triangle[first]], b = mesh.positions[triangle[(first + 1) % 3]],
+                    c = mesh.positions[triangle[(first + 2) % 3]];
+    const float s = random.between(0.0f, 1.0f), t = random.between(0.0f, 1.0f - s);
+    return {a, a + s * (b - a), a + s * (b - a) + t * (c - a)};
 }
 
 } // namespace
@@ -55,6 +73,26 @@ TriangleMesh bumpySphere(uint32_t rings, float radius) {
             m.triangles.push_back({a, b, a + rings});
             m.triangles.push_back({b, b + rings, a + rings});
         }
+    return m;
+}
+
+TriangleMesh strands(uint32_t count, float half, float length, float radius, uint32_t seed) {
+    Random random(seed);
+    TriangleMesh m;
+    for (uint32_t strand = 0; strand < count; ++strand) {
+        glm::vec3 at = random.point(half), way = random.direction();
+        const uint32_t joints = 1 + random.below(6);
+        for (uint32_t i = 0; i <= joints; ++i) {
+            const uint32_t kind = random.below(12);
+            m.radii.push_back(kind == 0   ? 0.0f
+                              : kind == 1 ? 2.0f * length
+                                          : radius * random.between(0.2f, 1.0f));
+            m.positions.push_back(at);
+            if (i < joints) m.segments.push_back(uint32_t(m.positions.size() - 1));
+            way = glm::normalize(way + 0.7f * random.direction());
+            if (kind != 2) at += length * way;
+        }
+    }
     return m;
 }
 
@@ -137,12 +175,7 @@ std::vector<gpu::Ray> aimedRays(const RayScene& scene, uint32_t count, float hal
     for (uint32_t i = 0; i < count; ++i) {
         const gpu::InstanceRecord& instance = scene.instances[random.below(uint32_t(scene.instances.size()))];
         const TriangleMesh& mesh = scene.meshes[instance.geometry];
-        const glm::uvec3 triangle = mesh.triangles[random.below(uint32_t(mesh.triangles.size()))];
-        const uint32_t first = random.below(3);
-        const glm::vec3 a = mesh.positions[triangle[first]], b = mesh.positions[triangle[(first + 1) % 3]],
-                        c = mesh.positions[triangle[(first + 2) % 3]];
-        const float s = random.between(0.0f, 1.0f), t = random.between(0.0f, 1.0f - s);
-        const glm::vec3 targets[3] = {a, a + s * (b - a), a + s * (b - a) + t * (c - a)};
+        const std::array<glm::vec3, 3> targets = aims(mesh, random);
         const glm::vec3 origin = random.point(half);
         const glm::vec3 way = toWorld(instance, targets[i % 3]) - origin;
         rays.push_back(rayFrom(origin, glm::dot(way, way) > 0.0f ? glm::normalize(way) : glm::vec3(0, 0, 1)));

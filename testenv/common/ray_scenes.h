@@ -16,9 +16,12 @@ namespace hipr::test {
 struct TriangleMesh {
     std::vector<glm::vec3> positions; ///< of all keys, one behind the other
     std::vector<glm::uvec3> triangles;
+    std::vector<uint32_t> segments; ///< or first vertices of round segments
+    std::vector<float> radii;       ///< at the vertices of segments
     uint32_t keys = 1;
 
     uint32_t vertexCount() const { return uint32_t(positions.size()) / keys; }
+    uint32_t size() const { return uint32_t(triangles.size() + segments.size()); }
 };
 
 struct RayScene {
@@ -43,6 +46,9 @@ private:
 TriangleMesh soup(uint32_t count, float half, float size, uint32_t seed);
 /// A closed sphere with bumps: 2 * rings * rings triangles, poles included.
 TriangleMesh bumpySphere(uint32_t rings, float radius);
+/// Bent chains of round segments, each `length` and up to `radius` thick, that start in a cube of half width
+/// `half`; some end in a point, some grow so fast that one end holds the other, and some have no length.
+TriangleMesh strands(uint32_t count, float half, float length, float radius, uint32_t seed);
 /// A square in an axis plane, `cells` x `cells` x 2 triangles; axis-parallel rays in its plane meet it
 /// edge-on.
 TriangleMesh grid(uint32_t cells, float half, int axis);
@@ -61,7 +67,7 @@ void spreadOverTime(std::vector<gpu::Ray>& rays, uint32_t seed);
 /// Random rays around a scene of half width `half`.
 std::vector<gpu::Ray> randomRays(uint32_t count, float half, uint32_t seed);
 /// Rays from random points aimed at vertices, edge points and interior points of the scene's triangles, in
-/// turn.
+/// turn; of segments at vertices, at axes and around them.
 std::vector<gpu::Ray> aimedRays(const RayScene& scene, uint32_t count, float half, uint32_t seed);
 /// Axis-parallel rays with origins on a lattice of `steps` a side, so that they run in planes and along edges
 /// of grids.

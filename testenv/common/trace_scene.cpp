@@ -6,8 +6,9 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/accel/denormals.h"
+#include "renderer/accel/geometry_bounds.h"
 #include "renderer/accel/instance_table.h"
-#include "shaders/shared/intersect.h"
+#include "shaders/shared/segment.h"
 
 namespace hipr::test {
 
@@ -37,6 +38,17 @@ std::string kindName(TraversalKind kind) {
     return "";
 }
 
+GeometryView viewOf(const TriangleMesh& mesh) {
+    GeometryView view{};
+    view.positions = mesh.positions.data();
+    view.vertexCount = mesh.vertexCount();
+    view.triangles = mesh.triangles.data();
+    view.triangleCount = mesh.size();
+    view.keys = mesh.keys;
+    if (!mesh.segments.empty()) view.segments = mesh.segments.data(), view.radii = mesh.radii.data();
+    return view;
+}
+
 TraceScene::TraceScene(TraversalKind kind, Device& device)
     : _device(device), _traversal(createTraversal(kind, device)) {}
 
@@ -51,7 +63,10 @@ void TraceScene::setMesh(uint32_t slot, const TriangleMesh& mesh) {
     Slot& s = _slots[slot];
     s.mesh = mesh;
     s.mesh.positions.push_back(glm::vec3(0.0f)); // readable padding behind the last vertex
-    s.triangles = _device.createFrom(mesh.triangles.data(), mesh.triangles.size(), "test");
+    s.triangles = mesh.segments.empty()
+                      ? _device.createFrom(mesh.triangles.data(), mesh.triangles.size(), "test")
+                      : _device.createFrom(mesh.segments.data(), mesh.segments.size(), "test");
+    if (!mesh.radii.empty()) s.radii = _device.createFrom(mesh.radii.data(), mesh.radii.size(), "test");
     send(slot, false);
 }
 
@@ -64,14 +79,11 @@ void TraceScene::movePoints(uint32_t slot, const std::vector<glm::vec3>& positio
 void TraceScene::send(uint32_t slot, bool sameTopology) {
     Slot& s = _slots.at(slot);
     s.positions = _device.createFrom(s.mesh.positions.data(), s.mesh.positions.size(), "test");
-    const GeometryView view{s.mesh.positions.data(),
-                            uint32_t(s.mesh.positions.size() - 1) / s.mesh.keys,
-                            s.mesh.triangles.data(),
-                            uint32_t(s.mesh.triangles.size()),
-                            s.positions.address(),
-                            s.triangles.address(),
-                            sameTopology,
-                            s.mesh.keys};
+    GeometryView view = viewOf(s.mesh);
+    view.vertexCount = uint32_t(s.mesh.positions.size() - 1) / s.mesh.keys; // without the padding
+    view.positionsAddress = s.positions.address();
+    view.trianglesAddress = s.triangles.address();
+    view.sameTopology = sameTopology;
     _traversal->setGeometry(slot, &view);
 }
 
@@ -93,6 +105,7 @@ void TraceScene::commit() {
     for (const auto& [slot, s] : _slots) {
         geometries[slot].positions = s.positions.address();
         geometries[slot].triangles = s.triangles.address();
+        geometries[slot].radii = s.mesh.segments.empty() ? 0 : s.radii.address();
     }
     _geometryBuffer = _device.createFrom(geometries.data(), geometries.size(), "test");
     _instanceBuffer = _device.createFrom(_instances.data(), _instances.size(), "test");
@@ -141,11 +154,13 @@ std::vector<uint32_t> TraceScene::occluded(const std::vector<gpu::Ray>& rays, ui
 
 namespace {
 
-glm::vec3 vertexAt(const TriangleMesh& mesh, uint32_t vertex, float time) {
-    if (mesh.keys == 1) return mesh.positions[vertex];
+Corners cornersAt(const TriangleMesh& mesh, uint32_t primitive, float time) {
+    const GeometryView view = viewOf(mesh);
+    if (mesh.keys == 1) return cornersOf(view, primitive, 0);
     const gpu::KeyTime at = gpu::keyTime(time, mesh.keys);
-    const glm::vec3* key = &mesh.positions[at.first * mesh.vertexCount() + vertex];
-    return gpu::mixKeys(key[0], key[mesh.vertexCount()], at.weight);
+    const Corners from = cornersOf(view, primitive, at.first), to = cornersOf(view, primitive, at.first + 1);
+    return {gpu::mixKeys(from[0], to[0], at.weight), gpu::mixKeys(from[1], to[1], at.weight),
+            gpu::mixKeys(from[2], to[2], at.weight)};
 }
 
 gpu::Hit bruteForceRay(const RayScene& scene, const InstanceTable& table, const gpu::Ray& ray,
@@ -164,13 +179,15 @@ gpu::Hit bruteForceRay(const RayScene& scene, const InstanceTable& table, const 
         const gpu::TriangleRay triangleRay = gpu::triangleRay(origin, direction);
         const gpu::BoxRay box = gpu::boxRay(origin, direction, record.extent);
         const TriangleMesh& mesh = scene.meshes[scene.instances[i].geometry];
-        for (uint32_t p = 0; p < mesh.triangles.size(); ++p) {
-            const glm::uvec3 k = mesh.triangles[p];
+        const gpu::SegmentRay segmentRay = gpu::segmentRay(origin, direction);
+        for (uint32_t p = 0; p < mesh.size(); ++p) {
+            const auto [a, b, c] = cornersAt(mesh, p, ray.time);
             float t, u, v;
-            if (gpu::canonicalHit(triangleRay, box, vertexAt(mesh, k.x, ray.time),
-                                  vertexAt(mesh, k.y, ray.time), vertexAt(mesh, k.z, ray.time), entry, exit,
-                                  t, u, v) &&
-                t > ray.tMin && gpu::before(t, i, p, best.t, best.instance, best.primitive))
+            const bool met =
+                mesh.segments.empty()
+                    ? gpu::canonicalHit(triangleRay, box, a, b, c, entry, exit, t, u, v)
+                    : gpu::canonicalSegmentHit(segmentRay, box, a, b, c.x, c.y, entry, exit, t, u, v);
+            if (met && t > ray.tMin && gpu::before(t, i, p, best.t, best.instance, best.primitive))
                 best = {i, p, t, u, v};
         }
     }
@@ -182,12 +199,7 @@ gpu::Hit bruteForceRay(const RayScene& scene, const InstanceTable& table, const 
 std::vector<gpu::Hit> bruteForce(const RayScene& scene, const std::vector<gpu::Ray>& rays, uint32_t mask) {
     const InstanceTable table = makeInstanceTable({scene.instances, scene.keys}, [&](uint32_t slot) {
         const TriangleMesh& mesh = scene.meshes[slot];
-        SlotShape shape{{}, mesh.keys, uint32_t(mesh.triangles.size())};
-        for (uint32_t key = 0; key < mesh.keys; ++key)
-            for (const glm::uvec3& t : mesh.triangles)
-                for (int k = 0; k < 3; ++k)
-                    shape.bounds.add(mesh.positions[key * mesh.vertexCount() + t[k]]);
-        return shape;
+        return slotShape(viewOf(mesh), geometryBounds(viewOf(mesh)));
     });
     std::vector<gpu::Hit> hits(rays.size());
     tbb::parallel_for(tbb::blocked_range<size_t>(0, rays.size(), 256), [&](const auto& range) {

@@ -18,6 +18,9 @@ constexpr TraversalKind ALL_TRAVERSALS[] = {TraversalKind::Host, TraversalKind::
                                             TraversalKind::RayQuery};
 std::string kindName(TraversalKind kind);
 
+/// A mesh as the host has it; addresses are left out.
+GeometryView viewOf(const TriangleMesh& mesh);
+
 class TraceScene {
 public:
     explicit TraceScene(TraversalKind kind, Device& device = test::device());
@@ -40,7 +43,7 @@ public:
 private:
     struct Slot {
         TriangleMesh mesh;
-        Buffer positions, triangles;
+        Buffer positions, triangles, radii;
     };
     void send(uint32_t slot, bool sameTopology);
     void trace(const std::vector<gpu::Ray>& rays, uint32_t mask, bool nearest, const Buffer& results);
@@ -53,7 +56,7 @@ private:
     Buffer _geometryBuffer, _instanceBuffer, _keyBuffer, _scene;
 };
 
-/// The definition: the best canonical hit among all triangles of all instances, one by one.
+/// The definition: the best canonical hit among all triangles and segments of all instances, one by one.
 std::vector<gpu::Hit> bruteForce(const RayScene& scene, const std::vector<gpu::Ray>& rays,
                                  uint32_t mask = gpu::RAY_MASK_ALL);
 

@@ -8,7 +8,8 @@ namespace hipr::test {
 namespace {
 
 const std::string shapes = "/World/Shapes", strands = shapes + "/Strands", ribbon = shapes + "/Ribbon",
-                  dots = shapes + "/Dots", disks = shapes + "/Disks", grove = shapes + "/Grove";
+                  dots = shapes + "/Dots", wire = shapes + "/Wire", disks = shapes + "/Disks",
+                  grove = shapes + "/Grove";
 
 Rows curves() {
     return {
@@ -46,6 +47,32 @@ uniform token[] xformOpOrder = ["xformOp:translate"])")},
     };
 }
 
+/// Thin curves, which are round segments.
+Rows wires() {
+    return {
+        {"WirePoints", in(wire, R"(point3f[] points = [(0, 0.5, 0), (2, 0.9, 0.1), (4, 0.5, 0), (7, 0.9, 0),
+    (0, -0.2, 0.2), (3.5, -0.3, 0.2), (7, -0.2, 0.2)])")},
+        {"WireFewer", in(wire, R"(int[] curveVertexCounts = [4]
+float[] widths = [0.06]
+color3f[] primvars:displayColor = [(0.9, 0.7, 0.2)])")},
+        {"WireWidths", in(wire, "float[] widths = [0.03, 0.06]")},
+        {"WireBecomesTubes", in(wire, "float[] widths = [0.3, 0.2]")},
+        {"WireBecomesRibbons", in(wire, R"(normal3f[] normals = [(0, 0, 1)] (
+    interpolation = "constant"
+))")},
+        {"WireLinear", in(wire, R"(uniform token type = "linear")")},
+        {"WirePeriodic", in(wire, R"(uniform token wrap = "periodic")")},
+        {"WireColor", in(wire, "color3f[] primvars:displayColor = [(0.2, 0.9, 0.3), (0.2, 0.7, 0.9)]")},
+        {"WireSeeThrough", in(wire, R"(float[] primvars:displayOpacity = [0.5, 1] (
+    interpolation = "uniform"
+))")},
+        {"WireMaterial", in(wire, "rel material:binding = </World/Looks/Red>")},
+        {"WireTurns", in(wire, R"(float xformOp:rotateZ = 5
+uniform token[] xformOpOrder = ["xformOp:rotateZ"])")},
+        {"WireRemoved", removePrim(wire)},
+    };
+}
+
 Rows points() {
     return {
         {"DotsMove", in(dots, "point3f[] points = [(3.2, 0.2, 0), (3.6, 0.3, 0), (4, 0.1, 0)]")},
@@ -79,8 +106,8 @@ point3f[] positions = [(6, 0, 0)])")},
 
 Rows shapeRows() {
     Rows rows = curves();
-    const Rows more = points();
-    rows.insert(rows.end(), more.begin(), more.end());
+    for (const Rows& more : {wires(), points()})
+        rows.insert(rows.end(), more.begin(), more.end());
     return rows;
 }
 

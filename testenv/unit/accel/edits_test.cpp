@@ -12,7 +12,7 @@ class Edits : public testing::TestWithParam<TraversalKind> {};
 void edit(Random& random, RayScene& scene, TraceScene& traced) {
     const uint32_t slot = random.below(uint32_t(scene.meshes.size()));
     TriangleMesh& mesh = scene.meshes[slot];
-    switch (random.below(6)) {
+    switch (random.below(7)) {
     case 0: // another mesh
         mesh = soup(1 + random.below(60), 0.5f, 0.3f, random.below(1000));
         traced.setMesh(slot, mesh);
@@ -37,6 +37,10 @@ void edit(Random& random, RayScene& scene, TraceScene& traced) {
     case 4: // emptied; instances of it stay
         mesh = {};
         traced.removeMesh(slot);
+        traced.setMesh(slot, mesh);
+        break;
+    case 5: // curves
+        mesh = strands(1 + random.below(20), 0.5f, 0.2f, 0.05f, random.below(1000));
         traced.setMesh(slot, mesh);
         break;
     default: // instances come, go and move

@@ -69,6 +69,29 @@ TEST_P(Hits, MirroredAndStretchedInstances) {
     expectDefinition(scene, aimedRays(scene, count(20000), 3.0f, 6), allowedAimed());
 }
 
+/// Segments are never only proposed: all traversals give the definition for every ray, aimed or not.
+TEST_P(Hits, Strands) {
+    for (const float radius : {0.05f, 1e-3f}) {
+        const RayScene scene{{strands(100, 1.0f, 0.3f, radius, 1)}, {placed(0, glm::dmat4(1.0))}};
+        expectDefinition(scene, randomRays(count(50000), 1.5f, 2));
+        expectDefinition(scene, aimedRays(scene, count(60000), 2.0f, 3));
+        expectDefinition(scene, aimedRays(scene, count(20000), 100.0f, 4)); // from far away
+    }
+}
+
+TEST_P(Hits, StrandsAmongTriangles) {
+    RayScene scene{{strands(30, 0.5f, 0.2f, 0.03f, 1), soup(20, 0.5f, 0.3f, 1), bumpySphere(5, 0.5f)}, {}};
+    Random random(4);
+    for (uint32_t i = 0; i < 30; ++i)
+        scene.instances.push_back(placed(i % 3, randomPlacement(random, 1.5f, i % 2)));
+    const auto rays = randomRays(count(60000), 3.0f, 5);
+    expectDefinition(scene, rays);
+    const auto expected = bruteForce(scene, rays);
+    const auto blocked = TraceScene(GetParam(), scene).occluded(rays);
+    for (uint32_t i = 0; i < rays.size(); ++i)
+        ASSERT_EQ(blocked[i], expected[i].instance != gpu::NO_INDEX ? 1u : 0u) << "ray " << i;
+}
+
 TEST_P(Hits, CoincidentTrianglesGoToTheSmallerIds) {
     TriangleMesh twice = bumpySphere(6, 1.0f); // every triangle again, with its corners in another order
     const uint32_t single = uint32_t(twice.triangles.size());
@@ -196,7 +219,9 @@ TEST_P(Hits, ScenesWithNothing) {
     };
     TraceScene scene(GetParam());
     expectNothing(scene);
-    scene.setMesh(2, TriangleMesh{{{0, 0, 0}}, {}});                              // no triangles
+    TriangleMesh point; // no triangles
+    point.positions = {{0, 0, 0}};
+    scene.setMesh(2, point);
     scene.setInstances({placed(2, glm::dmat4(1.0)), placed(7, glm::dmat4(1.0))}); // slot 7 was never filled
     expectNothing(scene);
     scene.setMesh(2, soup(20, 1.0f, 0.5f, 20));

@@ -77,6 +77,21 @@ TEST_P(MovingHits, ABallFliesPast) {
     }
 }
 
+TEST_P(MovingHits, CurvesThatDeform) {
+    for (uint32_t keys : {2u, 4u}) {
+        RayScene scene{{strands(60, 0.8f, 0.2f, 0.05f, 1), soup(60, 0.5f, 0.3f, 1)}, {}};
+        deform(scene.meshes[0], keys, 0.1f, 2);
+        Random random(5);
+        for (uint32_t i = 0; i < 6; ++i) {
+            scene.instances.push_back(placed(i % 2, randomPlacement(random, 1.5f, i % 3)));
+            if (i % 3) setMoving(scene, 3, random, 0.5f);
+        }
+        expectDefinition(scene, randomRays(30000, 2.0f, 6));
+        scene.instances = {scene.instances[0]}; // of curves alone
+        expectDefinition(scene, aimedRays(scene, 30000, 2.0f, 7));
+    }
+}
+
 /// Edits of keys give the hits of a scene built anew.
 TEST_P(MovingHits, EditsOfKeys) {
     RayScene scene{{bumpySphere(8, 0.7f)}, {placed(0, glm::dmat4(1.0)), placed(0, glm::dmat4(1.0))}};

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/accel/denormals.h"
+#include "renderer/accel/geometry_bounds.h"
 #include "renderer/accel/instance_table.h"
 #include "renderer/accel/wide_walk.h"
 #include "testenv/common/trace_scene.h"
@@ -11,22 +12,11 @@
 namespace hipr::test {
 namespace {
 
-GeometryView viewOf(const TriangleMesh& mesh) {
-    return {mesh.positions.data(),
-            mesh.vertexCount(),
-            mesh.triangles.data(),
-            uint32_t(mesh.triangles.size()),
-            0,
-            0,
-            false,
-            mesh.keys};
-}
-
 /// Counts how often each triangle is in a leaf, and expects its corners there and its box within all above.
 struct Inspection {
     const TriangleMesh& mesh;
     const WideUnit* units;
-    std::vector<uint32_t> seen = std::vector<uint32_t>(mesh.triangles.size(), 0);
+    std::vector<uint32_t> seen = std::vector<uint32_t>(mesh.size(), 0);
 
     static void expectWithin(const glm::vec3& p, const Bounds& box) {
         EXPECT_TRUE(glm::all(glm::lessThanEqual(box.lo, p)) && glm::all(glm::lessThanEqual(p, box.hi)));
@@ -53,11 +43,13 @@ struct Inspection {
                 continue;
             }
             ++seen.at(l.primitive[lane]);
-            for (int k = 0; k < 3; ++k) {
-                const glm::vec3 p{l.corner[k][0][lane], l.corner[k][1][lane], l.corner[k][2][lane]};
-                EXPECT_EQ(p, mesh.positions[mesh.triangles[l.primitive[lane]][k]]);
-                expectWithin(p, box);
-            }
+            const GeometryView view = viewOf(mesh);
+            const Corners corners = cornersOf(view, l.primitive[lane], 0);
+            for (int k = 0; k < 3; ++k)
+                EXPECT_EQ(corners[k],
+                          glm::vec3(l.corner[k][0][lane], l.corner[k][1][lane], l.corner[k][2][lane]));
+            expectWithin(cornersBox(view, corners).lo, box);
+            expectWithin(cornersBox(view, corners).hi, box);
         }
     }
 };
@@ -76,6 +68,9 @@ TEST(WideTree, HoldsEveryTriangleOnce) {
         WideTree tree;
         tree.build(viewOf(mesh));
         expectHolds(tree, mesh);
+        const TriangleMesh curves = strands(count, 1.0f, 0.2f, 0.05f, count);
+        tree.build(viewOf(curves));
+        expectHolds(tree, curves);
     }
     TriangleMesh same = soup(1, 1.0f, 0.2f, 1); // one triangle many times
     same.triangles.resize(1000, same.triangles[0]);
@@ -109,8 +104,7 @@ struct Walked {
         for (size_t i = 0; i < trees.size(); ++i)
             trees[i].build(viewOf(s.meshes[i]));
         table = makeInstanceTable({s.instances, s.keys}, [&](uint32_t slot) {
-            return SlotShape{trees[slot].bounds(), s.meshes[slot].keys,
-                             uint32_t(s.meshes[slot].triangles.size())};
+            return slotShape(viewOf(s.meshes[slot]), trees[slot].bounds());
         });
         std::vector<Bounds> boxes;
         std::vector<uint32_t> ids;
@@ -148,10 +142,12 @@ struct Walked {
 };
 
 TEST(WideWalk, EveryCompilationGivesTheDefinition) {
-    RayScene scene{{soup(40, 0.5f, 0.3f, 1), bumpySphere(7, 0.5f), grid(3, 0.5f, 1)}, {}};
+    RayScene scene{
+        {soup(40, 0.5f, 0.3f, 1), bumpySphere(7, 0.5f), grid(3, 0.5f, 1), strands(20, 0.5f, 0.2f, 0.05f, 3)},
+        {}};
     Random random(2);
-    for (uint32_t i = 0; i < 30; ++i)
-        scene.instances.push_back(placed(i % 3, randomPlacement(random, 2.0f, i % 2)));
+    for (uint32_t i = 0; i < 40; ++i)
+        scene.instances.push_back(placed(i % 4, randomPlacement(random, 2.0f, i % 2)));
     const RayScene alone{{bumpySphere(9, 1.0f)}, {placed(0, glm::dmat4(1.0))}};
     auto segments = randomRays(10000, 3.0f, 5); // also behind the origin, where distances are negative
     for (gpu::Ray& r : segments)
@@ -165,11 +161,12 @@ TEST(WideWalk, EveryCompilationGivesTheDefinition) {
 }
 
 TEST(WideWalk, EveryCompilationKnowsTheTime) {
-    RayScene scene{{soup(40, 0.5f, 0.3f, 1), bumpySphere(7, 0.5f)}, {}};
+    RayScene scene{{soup(40, 0.5f, 0.3f, 1), bumpySphere(7, 0.5f), strands(20, 0.5f, 0.2f, 0.05f, 3)}, {}};
     deform(scene.meshes[1], 3, 0.05f, 8);
+    deform(scene.meshes[2], 3, 0.05f, 9);
     Random random(2);
-    for (uint32_t i = 0; i < 20; ++i) {
-        scene.instances.push_back(placed(i % 2, randomPlacement(random, 2.0f, i % 2)));
+    for (uint32_t i = 0; i < 30; ++i) {
+        scene.instances.push_back(placed(i % 3, randomPlacement(random, 2.0f, i % 2)));
         if (i % 3) setMoving(scene, 2 + i % 3, random, 0.5f);
     }
     auto rays = aimedRays(scene, 20000, 3.0f, 4);

@@ -250,15 +250,104 @@ TEST(Curves, BadDataIsDroppedAndNamed) {
     EXPECT_EQ(said.size(), 2u);
 }
 
-// Hair must not eat the machine: a million cubic curves get thin prisms.
-TEST(Curves, ManyCurvesGetFewSides) {
+// Hair must not eat the machine: what is straight is one segment.
+TEST(Curves, HairIsMadeOfRoundSegments) {
     CurvesDesc desc;
     desc.basis = CurveBasis::BSpline;
     desc.vertexCounts.assign(300000, 4);
     for (int i = 0; i < 300000; ++i)
         for (int k = 0; k < 4; ++k)
             desc.points.push_back({float(i), float(k), 0});
-    EXPECT_EQ(build(desc)->triangles.size(), 300000u * 4 * 2 * 4);
+    desc.primvars = {floats("widths", Interpolation::Constant, {0.5f}),
+                     floats("u", Interpolation::Uniform, std::vector<float>(300000, 3.f))};
+    const auto mesh = build(desc);
+    EXPECT_TRUE(mesh->triangles.empty());
+    ASSERT_EQ(mesh->segments.size(), 300000u);
+    EXPECT_EQ(mesh->positions.size(), 300000u * 4) << "two vertices, and one beyond each";
+    EXPECT_EQ(mesh->primvars[0].values.size(), 300000u) << "one a curve";
+    const uint32_t first = mesh->segments[77];
+    EXPECT_EQ(mesh->triangleFace[77], 77u);
+    EXPECT_LT(glm::length(mesh->positions[first] - glm::vec3(77, 1, 0)), 1e-5f);
+    EXPECT_LT(glm::length(mesh->positions[first + 1] - glm::vec3(77, 2, 0)), 1e-5f);
+    EXPECT_EQ(mesh->radii[first], 0.25f);
+    EXPECT_NEAR(mesh->boundsMin.y, 0.75f, 1e-5f);
+    EXPECT_NEAR(mesh->boundsMax.x, 299999.25f, 1e-1f);
+}
+
+namespace {
+
+/// Two arcs, a third of a circle of radius 1 each, that are `width` wide.
+CurvesDesc arcs(float width, CurveWrap wrap = CurveWrap::Nonperiodic) {
+    CurvesDesc desc;
+    desc.basis = CurveBasis::CatmullRom;
+    desc.wrap = wrap;
+    for (int curve = 0; curve < 2; ++curve) {
+        desc.vertexCounts.push_back(7);
+        for (int k = 0; k < 7; ++k) {
+            const float angle = glm::two_pi<float>() * float(k) / 7;
+            desc.points.push_back({std::cos(angle), std::sin(angle), float(curve)});
+        }
+    }
+    desc.width = width;
+    return desc;
+}
+
+} // namespace
+
+TEST(Curves, RoundSegmentsStayCloseToTheCurve) {
+    for (const CurveWrap wrap : {CurveWrap::Nonperiodic, CurveWrap::Pinned, CurveWrap::Periodic}) {
+        size_t coarser = 0;
+        for (const int level : {0, 1, 2}) {
+            CurvesDesc desc = arcs(0.01f, wrap);
+            desc.refineLevel = level;
+            desc.primvars = {floats("x", Interpolation::Vertex, {})};
+            for (const glm::vec3& p : desc.points)
+                desc.primvars[0].values.push_back(p.x);
+            const auto mesh = build(desc);
+            ASSERT_GT(mesh->segments.size(), coarser);
+            coarser = mesh->segments.size();
+            const float chord = 2 * std::sin(glm::pi<float>() / 7);
+            const float allowed = 0.01f * chord / float(1 << (2 * level));
+            std::vector<glm::vec2> controls, curve; // the latter in small steps
+            for (int k = 0; k < 7; ++k)
+                controls.push_back(glm::vec2(desc.points[size_t(k)]));
+            for (uint32_t segment = 0; segment < segmentCount(desc.basis, wrap, 7); ++segment)
+                for (int step = 0; step < 500; ++step)
+                    curve.push_back(pointOf(desc.basis, wrap, controls, segment, float(step) / 499));
+            for (const uint32_t i : mesh->segments) {
+                const glm::vec3 a = mesh->positions[i], b = mesh->positions[i + 1], middle = 0.5f * (a + b);
+                float away = 1;
+                for (const glm::vec2& p : curve)
+                    away = std::min(away, glm::length(p - glm::vec2(middle)));
+                EXPECT_LT(away, 1.05f * allowed + 1e-3f) << level; // and half a small step
+                EXPECT_NEAR(mesh->primvars[0].values[i], a.x, 1e-5f);
+                // On either side is the neighbour, or the end once more.
+                const glm::vec3 before = mesh->positions[i - 1], after = mesh->positions[i + 2];
+                EXPECT_TRUE(before == a || glm::dot(a - before, b - a) > 0);
+                EXPECT_TRUE(after == b || glm::dot(after - b, b - a) > 0);
+                EXPECT_TRUE(wrap != CurveWrap::Periodic || (before != a && after != b));
+            }
+        }
+    }
+}
+
+TEST(Curves, FormFollowsWidthAndIsKept) {
+    EXPECT_FALSE(curveForm(arcs(0.1f)).round) << "some 50 widths long";
+    const CurveForm thin = curveForm(arcs(0.01f));
+    EXPECT_TRUE(thin.round);
+    EXPECT_EQ(thin.steps.size(), 2u * 4) << "one for each cubic";
+    CurvesDesc ribbon = arcs(0.01f);
+    ribbon.primvars = {floats("normals", Interpolation::Constant, {0, 0, 1}, 3)};
+    EXPECT_FALSE(curveForm(ribbon).round);
+    const auto mesh = build(arcs(0.01f));
+    CurvesDesc straight = arcs(0.01f);
+    for (size_t i = 0; i < straight.points.size(); ++i)
+        straight.points[i] = glm::vec3(float(i % 7), 0, float(i / 7));
+    EXPECT_NE(build(straight)->segments, mesh->segments) << "needs no steps";
+    straight.form = thin;
+    const auto moved = build(straight);
+    EXPECT_EQ(moved->segments, mesh->segments);
+    EXPECT_TRUE(withMotion(*mesh, {{0.f, mesh}, {1.f, moved}}));
 }
 
 TEST(Curves, UnitShapes) {
