@@ -64,13 +64,12 @@ void HdHiprParticleField::Sync(HdSceneDelegate* delegate, HdRenderParam* renderP
     }
     // Last: UsdImaging hands out values once, and asking for samples of them counts.
     if (bits & (instanceBits | valueBits)) {
-        hipr::InstancesDesc placed = readInstances(*delegate, GetId(), GetInstancerId(), param.sampling());
-        if (param.sampling().open()) {
-            warnOfMotion(*delegate, GetId(), SplatTokens().positions, placed.motion);
-        }
-        placed.motion = {};
+        const Sampling sampling = param.sampling();
         if (bits & instanceBits) {
-            param.edit().setInstances(_object, std::move(placed));
+            param.edit().setInstances(_object, readInstances(*delegate, GetId(), GetInstancerId(), sampling));
+        }
+        if (sampling.open()) {
+            warnOfMotion(*delegate, GetId(), SplatTokens().positions);
         }
     }
     *dirtyBits = HdChangeTracker::Clean;

@@ -7,12 +7,12 @@ PXR_NAMESPACE_OPEN_SCOPE
 
 namespace hdhipr {
 
-void warnOfMotion(HdSceneDelegate& delegate, SdfPath const& id, TfToken const& points,
-                  hipr::InstanceMotion const& motion) {
-    if (!motion.times.empty() || samplePrimvar(delegate, id, points).moves()) {
-        warnOnce(id.GetString(),
-                 "it moves while the camera's shutter is open, and splats are not blurred; they "
-                 "stand still where they are at the frame's time");
+void warnOfMotion(HdSceneDelegate& delegate, SdfPath const& id, TfToken const& points) {
+    if (samplePrimvar(delegate, id, points).moves()) {
+        warnOnce(
+            id.GetString(),
+            "its splats move on their own while the camera's shutter is open, which is not blurred; they "
+            "stand where they are at the frame's time");
     }
 }
 

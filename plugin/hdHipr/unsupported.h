@@ -3,16 +3,14 @@
 #pragma once
 
 #include "plugin/hdHipr/compat.h"
-#include "renderer/api/motion.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
 
 namespace hdhipr {
 
-/// Warns when splats move while the shutter is open, with `motion` or by their `points`. Reads samples: call
-/// it only while a shutter is open.
-void warnOfMotion(HdSceneDelegate& delegate, SdfPath const& id, TfToken const& points,
-                  hipr::InstanceMotion const& motion);
+/// Warns when a prim's `points` move while the shutter is open. Reads samples: call it only while a shutter
+/// is open.
+void warnOfMotion(HdSceneDelegate& delegate, SdfPath const& id, TfToken const& points);
 
 } // namespace hdhipr
 

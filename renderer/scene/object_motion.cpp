@@ -38,7 +38,8 @@ void ObjectTable::setShutter(const Shutter& shutter) {
 
 bool ObjectTable::anyMotion() const {
     return std::any_of(_entries.begin(), _entries.end(), [](const auto& e) {
-        return e.second.instances && e.second.instances->motion.times.size() > 1;
+        const bool traced = !e.second.desc || e.second.desc->splats == SplatsId::None;
+        return traced && e.second.instances && e.second.instances->motion.times.size() > 1;
     });
 }
 

@@ -32,10 +32,12 @@ void ObjectTable::placeSplats(Entry& entry, const SplatSet* shown, bool transfor
     if (!shown) return;
     entry.boundsPending = false;
     for (const uint32_t source : entry.usable) {
+        const auto keys = entry.keys.begin() + ptrdiff_t(entry.splats.size() * entry.keyCount);
         const bool hasIds = entry.instances && source < entry.instances->instanceIds.size();
         entry.splats.push_back(
             {entry.desc->splats, entry.instances ? entry.instances->transforms[source] : glm::mat4x3(1.f),
-             entry.desc->primId, hasIds ? entry.instances->instanceIds[source] : int(source)});
+             entry.desc->primId, hasIds ? entry.instances->instanceIds[source] : int(source),
+             std::vector<glm::mat4x3>(keys, keys + entry.keyCount)});
     }
     entry.meshBox = shown->box;
     updateBox(entry);

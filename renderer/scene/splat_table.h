@@ -17,9 +17,10 @@ struct SplatPlacement {
     glm::mat4x3 objectToWorld{1.f};
     int primId = -1;
     int instanceId = 0;
+    std::vector<glm::mat4x3> keys; ///< object to world while the shutter is open; empty: it stands still
     bool operator==(const SplatPlacement& o) const {
         return splats == o.splats && objectToWorld == o.objectToWorld && primId == o.primId &&
-               instanceId == o.instanceId;
+               instanceId == o.instanceId && keys == o.keys;
     }
 };
 

@@ -222,6 +222,7 @@ bool RendererImpl::renderBatch() {
         if (_splats.pending() && !_splats.ready(std::chrono::milliseconds(50))) return true;
         if (depthsMissing() && !firstHitsDone()) return renderFirstHits();
         if (_splats.pending()) return renderSplats();
+        if (_splats.blurring() && (!_film.depths() || firstHitsDone())) return renderSplats();
         if (_edits.searching()) return search();
         if (complete()) return finish(), false;
         const bool firstHits = !firstHitsDone() && (sampled() || _schedule.discoveredRefreshed());

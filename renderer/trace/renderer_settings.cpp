@@ -123,7 +123,7 @@ ChangedSet RendererImpl::setSettings(const Settings& settings) {
         if (options || traversal != _traversalInUse) _scene.commit();
         _setupPending = true;
         _splats.setSettings(settings);
-        awaitSplats();
+        updateSplats(); // motion blur may be another
         _schedule.setFloor(settings.floorShare);
         _batch.setPatience(settings.interactive ? 1.0 : 10.0);
         const bool tiles = tileSize() != _schedule.grid().tileSize;

@@ -35,6 +35,7 @@ void SplatLayer::setScene(const SplatTable& table, const std::vector<SplatPlacem
     _failed = false;
     updateStores(table);
     std::vector<SplatInstance> instances;
+    std::vector<SplatMotion::Placed> placed;
     for (const SplatPlacement& placement : placements) {
         const SplatSet& set = *table.find(placement.splats);
         Stored& stored = _stores[placement.splats];
@@ -47,16 +48,17 @@ void SplatLayer::setScene(const SplatTable& table, const std::vector<SplatPlacem
                                    std::string(e.what()) + "; its splats are not drawn");
             }
         }
-        if (stored.store && stored.store->size() > 0)
-            instances.push_back(
-                {stored.store, placement.objectToWorld, placement.primId, placement.instanceId});
+        if (!stored.store || stored.store->size() == 0) continue;
+        instances.push_back({stored.store, placement.objectToWorld, placement.primId, placement.instanceId});
+        placed.push_back({placement.objectToWorld, placement.keys, set.box});
     }
     const bool same = std::equal(instances.begin(), instances.end(), _instances.begin(), _instances.end(),
                                  [](const SplatInstance& a, const SplatInstance& b) {
                                      return a.store == b.store && a.objectToWorld == b.objectToWorld &&
                                             a.primId == b.primId && a.instanceId == b.instanceId;
                                  });
-    if (same) return;
+    const bool otherMotion = _motion.setInstances(std::move(placed));
+    if (same && !otherMotion) return;
     _instances = std::move(instances);
     _pending = true;
     if (_instances.empty()) _drawn = false;
@@ -72,6 +74,10 @@ void SplatLayer::setView(const gpu::CameraRecord& camera, uint32_t width, uint32
     _view.height = height;
     _pending = true;
     if (_ready) _pass->setView(_view);
+}
+
+void SplatLayer::setMotion(const CameraDesc& camera, const Shutter& shutter) {
+    if (_motion.setCamera(camera, _view.camera, shutter)) _pending = true;
 }
 
 void SplatLayer::setSettings(const Settings& settings) {
@@ -114,6 +120,7 @@ bool SplatLayer::ready(std::chrono::milliseconds patience) {
 
 void SplatLayer::prepare() {
     _ready = true;
+    _elsewhere = false;
     _pass->setMode(_mode);
     _pass->setView(_view);
     _pass->setInstances(_instances);
@@ -122,8 +129,7 @@ void SplatLayer::prepare() {
 
 bool SplatLayer::render(const std::atomic<bool>& cancel) {
     try {
-        if (!_pass->render(&cancel)) return false;
-        fetch();
+        if (!(_pending ? drawFrame(cancel) : drawMoment(cancel))) return false;
         _drawn = true;
     } catch (const std::bad_alloc& e) {
         fail(reasonOf(e));
@@ -132,11 +138,41 @@ bool SplatLayer::render(const std::atomic<bool>& cancel) {
     return true;
 }
 
-/// Makes what was drawn readable by the host. It is copied only where the host cannot read device memory, and
+/// The pass may have been left with another moment, when what it drew was no longer wanted.
+bool SplatLayer::drawFrame(const std::atomic<bool>& cancel) {
+    if (_elsewhere) prepare();
+    if (!_pass->render(&cancel)) return false;
+    _moments = _motion.moments(_view.width, _view.height);
+    _momentsDrawn = 0;
+    _mean.clear();
+    _shown = fetch();
+    if (_moments > 0) { // which the pass draws in the same place
+        _frame.assign(_shown, _shown + pixelCount());
+        _shown = _frame.data();
+    }
+    return true;
+}
+
+bool SplatLayer::drawMoment(const std::atomic<bool>& cancel) {
+    _elsewhere = true;
+    const float time = SplatMotion::timeOf(_momentsDrawn, _moments);
+    std::vector<SplatInstance> instances = _instances;
+    for (size_t i = 0; i < instances.size(); ++i)
+        instances[i].objectToWorld = _motion.placement(i, time);
+    SplatView view = _view;
+    view.camera = _motion.camera(time);
+    _pass->setInstances(std::move(instances));
+    if (_motion.cameraMoves()) _pass->setView(view);
+    if (!_pass->render(&cancel)) return false;
+    _mean.add(fetch(), pixelCount());
+    if (++_momentsDrawn == _moments) prepare();
+    return true;
+}
+
+/// What the pass drew, readable by the host. It is copied only where the host cannot read device memory, and
 /// then only the rows between which something was drawn.
-void SplatLayer::fetch() {
-    _shown = _pass->pixels().mapped<gpu::SplatPixel>();
-    if (_shown) return;
+const gpu::SplatPixel* SplatLayer::fetch() {
+    if (const auto* mapped = _pass->pixels().mapped<gpu::SplatPixel>()) return mapped;
     const size_t width = _view.width, pixels = width * _view.height;
     const std::vector<uint32_t>& tiles = _pass->drawnTiles();
     const auto drawn = [](uint32_t tile) { return tile != 0; };
@@ -153,7 +189,7 @@ void SplatLayer::fetch() {
     constexpr uint64_t Stride = sizeof(gpu::SplatPixel);
     if (first < end)
         _device.download(_pass->pixels(), &_pixels[first], (end - first) * Stride, first * Stride);
-    _shown = _pixels.data();
+    return _pixels.data();
 }
 
 void SplatLayer::fail(const char* reason) {
@@ -208,19 +244,26 @@ void SplatLayer::blendPositions(glm::vec3* positions) const {
             positions[i] = _view.camera.worldToView * glm::vec4(shownPoint(i), 1.f);
 }
 
+glm::vec4 SplatLayer::shownColor(size_t pixel) const {
+    if (_moments > 0 && _momentsDrawn == _moments) return _mean.at(pixel);
+    return {_shown[pixel].color, _shown[pixel].transmittance};
+}
+
 void SplatLayer::blendColor(float* rgba) const {
     for (size_t i = 0; i < pixelCount(); ++i, rgba += 4) {
-        const gpu::SplatPixel& pixel = _shown[i];
+        const glm::vec4 splats = shownColor(i);
         for (int c = 0; c < 3; ++c)
-            rgba[c] = pixel.color[c] + pixel.transmittance * rgba[c];
-        rgba[3] = 1.f - pixel.transmittance * (1.f - rgba[3]);
+            rgba[c] = splats[c] + splats.w * rgba[c];
+        rgba[3] = 1.f - splats.w * (1.f - rgba[3]);
     }
 }
 
 void SplatLayer::blendAlbedo(float* rgb) const {
-    for (size_t i = 0; i < pixelCount(); ++i, rgb += 3)
+    for (size_t i = 0; i < pixelCount(); ++i, rgb += 3) {
+        const glm::vec4 splats = shownColor(i);
         for (int c = 0; c < 3; ++c)
-            rgb[c] = _shown[i].color[c] + _shown[i].transmittance * rgb[c];
+            rgb[c] = splats[c] + splats.w * rgb[c];
+    }
 }
 
 void SplatLayer::blendDepth(AovKind kind, float* depths) const {

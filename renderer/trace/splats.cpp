@@ -5,7 +5,7 @@
 namespace hipr {
 
 bool RendererImpl::complete() const {
-    return sampled() && firstHitsDone() && !_splats.pending();
+    return sampled() && firstHitsDone() && !_splats.pending() && !_splats.blurring();
 }
 
 /// Whether no more samples are to be taken: all are, or time is up and every pixel has one.
@@ -21,6 +21,7 @@ void RendererImpl::updateSplats() {
         _splatRevision = _scene.splatRevision();
         _splats.setScene(_scene.splats(), _scene.splatPlacements());
     }
+    if (_scene.camera()) _splats.setMotion(*_scene.camera(), _scene.shutter());
     if (_film.keepDepths(_splats.present() && _scene.anythingTraced())) {
         findFirstHits(_film.depths() != 0);
         if (!_film.depths()) _splats.setDepths(0);
