@@ -5,6 +5,7 @@
 
 #include "plugin/hdHipr/messages.h"
 #include "plugin/hdHipr/renderLoop.h"
+#include "renderer/vulkan/cachefolder.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
 
@@ -15,6 +16,15 @@ namespace {
 bool reloadTextures(RenderLoop& loop, VtDictionary const&) {
     loop.submitTextureReload();
     return true;
+}
+
+bool clearCaches(RenderLoop& loop, VtDictionary const&) {
+    loop.submitTextureReload();
+    const bool cleared = hipr::clearKernelCaches();
+    if (!cleared) {
+        warnOnce("", "the kept kernels cannot all be deleted from '" + hipr::cacheFolder().string() + "'");
+    }
+    return cleared;
 }
 
 bool dumpScene(RenderLoop& loop, VtDictionary const& arguments) {
@@ -33,6 +43,10 @@ bool dumpScene(RenderLoop& loop, VtDictionary const& arguments) {
 std::vector<Command> const& commands() {
     static const std::vector<Command> all = {
         {"reloadTextures", "Read all textures again and start the picture anew", {}, reloadTextures},
+        {"clearCaches",
+         "Delete the compiled kernels that are kept between runs, and read all textures again",
+         {},
+         clearCaches},
         {"dumpScene",
          "Write what the renderer holds of the scene to a text file",
          {{"file", VtValue(std::string("hipr_scene.txt"))}},

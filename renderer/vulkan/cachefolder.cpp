@@ -23,6 +23,17 @@ fs::path cacheFolder(const char* name) {
     return error ? fs::path() : folder;
 }
 
+bool clearKernelCaches() {
+    bool cleared = true;
+    for (const char* name : {"pipelines", "mesa"}) {
+        const fs::path folder = cacheFolder(name);
+        std::error_code error;
+        if (!folder.empty()) fs::remove_all(folder, error);
+        cleared = cleared && !error;
+    }
+    return cleared;
+}
+
 void setMesaCacheFolder() {
     static std::once_flag once;
     std::call_once(once, [] {

@@ -15,4 +15,8 @@ std::filesystem::path cacheFolder(const char* name = "");
 /// the first instance is created.
 void setMesaCacheFolder();
 
+/// Deletes the compiled kernels that are kept. Those in use go on; the next start compiles
+/// them again. Returns whether nothing was left behind.
+bool clearKernelCaches();
+
 } // namespace hipr

@@ -1,5 +1,6 @@
 /// What users may have the delegate do besides rendering.
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -33,6 +34,23 @@ TEST(Commands, dumpSceneWritesWhatTheRendererHolds) {
     EXPECT_NE(text.find("/square"), std::string::npos);
     EXPECT_EQ(VtValue(text), host.delegate().GetRenderSetting(TfToken("hipr:sceneDump")));
     std::filesystem::remove(path);
+}
+
+TEST(Commands, clearCachesDeletesKernelsAlone) {
+    TestHost host({"color"}, 2);
+    addScene(host);
+    ASSERT_TRUE(host.render());
+    const std::filesystem::path caches =
+        std::filesystem::temp_directory_path() / ("hipr-caches-" + std::to_string(getpid()));
+    const char* before = std::getenv("XDG_CACHE_HOME");
+    const std::string kept = before ? before : "";
+    setenv("XDG_CACHE_HOME", caches.c_str(), 1);
+    std::filesystem::create_directories(caches / "hipr" / "pipelines" / "some");
+    EXPECT_TRUE(hdhipr::invokeCommand(host.loop(), TfToken("clearCaches"), {}));
+    EXPECT_FALSE(std::filesystem::exists(caches / "hipr" / "pipelines" / "some"));
+    before ? setenv("XDG_CACHE_HOME", kept.c_str(), 1) : unsetenv("XDG_CACHE_HOME");
+    std::filesystem::remove_all(caches);
+    EXPECT_TRUE(host.render());
 }
 
 TEST(Commands, thatFailSaySo) {

@@ -59,6 +59,18 @@ TEST_F(CacheFolder, ADamagedCacheIsReplaced) {
     EXPECT_NE(unpackCache(std::string(std::istreambuf_iterator<char>(in), {})), "");
 }
 
+TEST_F(CacheFolder, IsClearedOnDemand) {
+    const Environment xdg("XDG_CACHE_HOME", folder.c_str());
+    std::string error;
+    ASSERT_TRUE(Device::create({}, &error)) << error;
+    EXPECT_FALSE(fs::is_empty(cacheFolder("pipelines")));
+    std::ofstream(folder / "hipr" / "other") << "of somebody else";
+    EXPECT_TRUE(clearKernelCaches());
+    EXPECT_TRUE(fs::is_empty(cacheFolder("pipelines")));
+    EXPECT_TRUE(fs::exists(folder / "hipr" / "other"));
+    EXPECT_TRUE(Device::create({}, &error)) << error;
+}
+
 TEST_F(CacheFolder, NoCacheFolderIsNoProblem) {
     const Environment xdg("XDG_CACHE_HOME", "/proc/nowhere");
     std::string error;
