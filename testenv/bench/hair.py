@@ -4,7 +4,7 @@
 Usage: hair.py HIPRRECORD [--curves N] [--bald] [--scene FILE] [-o PICTURE] [-n SAMPLES] [--size W]
 
 A ball of radius 1 with N hairs (cubic B-splines of 6 control points, 0.35 long, 1.6 thousandths wide at the root and
-pointed), one prim, in three colours, under a dome and a faint sun. What a sample takes is the difference between pictures of
+pointed), one prim, in three colours, under a dome and a sun. What a sample takes is the difference between pictures of
 SAMPLES and of 5 * SAMPLES samples, so that start-up and set-up do not count; --bald leaves the hair away.
 """
 import argparse
@@ -98,8 +98,10 @@ def Xform "World"
         float intensity = 0.25
     }
     def DistantLight "Sun" {
-        float inputs:intensity = 9
-        float intensity = 9
+        float inputs:intensity = 2
+        float intensity = 2
+        bool inputs:normalize = 1
+        bool normalize = 1
         float inputs:angle = 2
         float angle = 2
         float3 xformOp:rotateXYZ = (50, 0, -35)
