@@ -42,7 +42,7 @@ public:
         }
         out.visible = delegate->GetVisible(GetId());
         out.renderTag = delegate->GetRenderTag(GetId());
-        const hipr::InstancesDesc instances = hdhipr::readInstances(*delegate, GetId(), GetInstancerId(), false);
+        const hipr::InstancesDesc instances = hdhipr::readInstances(*delegate, GetId(), GetInstancerId(), {});
         out.places.clear();
         for (glm::mat4x3 const& transform : instances.transforms) {
             out.places.emplace_back(transform[3].x, transform[3].y, transform[3].z);
@@ -103,6 +103,7 @@ protected:
     bool stopRendering() override { return false; }
     bool renderingStopped() const override { return true; }
     bool renderingPaused() const override { return false; }
+    bool runCommand(TfToken const&, VtDictionary const&) override { return false; }
 
 private:
     Synced& _synced;
