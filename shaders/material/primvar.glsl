@@ -54,6 +54,7 @@ PrimvarCorners findPrimvar(InstanceRecord instance, GeometryRecord geometry, uin
 
 // Exact where all corners are equal, for graphs that ask whether a number of faces is a certain one.
 vec4 interpolatePrimvar(PrimvarCorners corners, vec2 uv) {
-    return corners.a + (corners.b - corners.a) * uv.x + (corners.c - corners.a) * uv.y;
+    const vec4 between = corners.a * (1.0 - uv.x - uv.y) + corners.b * uv.x + corners.c * uv.y;
+    return mix(between, corners.a, equal(abs(corners.b - corners.a) + abs(corners.c - corners.a), vec4(0.0)));
 }
 #endif
