@@ -12,8 +12,8 @@ namespace hipr {
 /// INSTANCE_CULL_* of a style.
 uint32_t cullFlags(CullStyle style, bool doubleSided);
 
-/// Whether faces of a mesh lie back to back, as those of UsdImaging's cards do. A ray that passes one of them
-/// would miss the other one, which is at the same place.
+/// Whether faces of a mesh lie back to back. A ray that passes one of them would miss the other one, which is
+/// at the same place. (UsdImaging's cards do, until the delegate moves them apart.)
 bool hasFacesBackToBack(const TriangleMesh& mesh);
 
 /// The same, remembered for the mesh that was asked for last.

@@ -4,9 +4,9 @@
 
 // Below this height over a triangle a ray from it may meet it again: the rounding of the triangle test (shared/intersect.h)
 // goes with how far the vertices are, not with where the ray begins. e1 and e2 are two of its edges. Of random triangles
-// and rays the highest was 2^-22 of the longest edge where a triangle is as wide as it is long, and 10 times that where it
-// is a tenth as wide; this is twice that, as origins are rounded, too. Slivers of less than 1/16 get what those of 1/16
-// need, since more would lead past their edges.
+// and rays the highest was 2^-22 of the longest edge where a triangle is as wide as it is long, and less than n times that
+// where it is n times as long as wide (4, 32, 256 times for 10, 100, 1000); this is twice n times that, as origins are
+// rounded, too. Slivers of less than 1/16 get what those of 1/16 need, since more would lead past their edges.
 float restlessHeight(vec3 e1, vec3 e2) {
     const vec3 e3 = e2 - e1;
     const float squared = max(max(dot(e1, e1), dot(e2, e2)), dot(e3, e3));
