@@ -40,13 +40,16 @@ std::vector<int> ints(VtIntArray const& array) {
     return {array.cdata(), array.cdata() + array.size()};
 }
 
+/// Of the points that are numbers.
 float extentOf(std::vector<glm::vec3> const& points) {
-    glm::vec3 low(0.f), high(0.f);
-    for (size_t i = 0; i < points.size(); ++i) {
-        low = i ? glm::min(low, points[i]) : points[i];
-        high = i ? glm::max(high, points[i]) : points[i];
+    std::optional<std::pair<glm::vec3, glm::vec3>> box;
+    for (glm::vec3 const& point : points) {
+        if (finite(point)) {
+            box = box ? std::pair(glm::min(box->first, point), glm::max(box->second, point))
+                      : std::pair(point, point);
+        }
     }
-    return glm::length(high - low);
+    return box ? glm::length(box->second - box->first) : 0.f;
 }
 
 /// UsdImaging gives lines that stand for models the width 1, whatever their size.

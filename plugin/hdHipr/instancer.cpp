@@ -6,6 +6,7 @@
 #include "plugin/hdHipr/convert.h"
 #include "plugin/hdHipr/messages.h"
 #include "plugin/hdHipr/primvars.h"
+#include "plugin/hdHipr/velocity.h"
 #include "pxr/base/gf/matrix4f.h"
 #include "pxr/base/gf/quatd.h"
 #include "pxr/base/gf/quatf.h"
@@ -242,7 +243,7 @@ std::vector<hipr::Primvar> HdHiprInstancer::localPrimvars(VtIntArray const& indi
         }
         if (complete) {
             result.push_back(std::move(picked));
-        } else {
+        } else if (!movesInstances(name)) { // of those the motion tells
             warnOnce(GetId().GetString(), "instance primvar '" + name.GetString() +
                                               "' has fewer values than there are instances; it is ignored");
         }

@@ -152,12 +152,15 @@ void HdHiprMesh::sendGeometry(HdSceneDelegate& delegate, Rebuild rebuild, HdHipr
     _desc.refineLevel = _style.refineLevel;
     _desc.flatNormals = _style.flat || (faceted && !hasNormals);
     const bool pointsOnly = rebuild == Rebuild::Points && _mesh && !_mesh->triangles.empty();
+    // Not for good: there may be other points before there are other velocities.
+    std::vector<hipr::Primvar> unfit = _velocities.takeUnfit(GetId(), _desc.points.size(), _desc.primvars);
     if (isCards(_desc)) {
         _mesh = hipr::buildTriangleMesh(separateCards(_desc), report);
     } else {
         _mesh =
             pointsOnly ? hipr::updatePoints(*_mesh, _desc, report) : hipr::buildTriangleMesh(_desc, report);
     }
+    std::move(unfit.begin(), unfit.end(), std::back_inserter(_desc.primvars));
     param.edit().setGeometry(_geometry, meshWithMotion(delegate, param.sampling()));
 }
 

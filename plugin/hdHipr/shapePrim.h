@@ -119,6 +119,7 @@ protected:
             primvar->indices.assign(indices.cdata(), indices.cdata() + indices.size());
             primvars.push_back(std::move(*primvar));
         }
+        _velocities.takeUnfit(this->GetId(), _points.size(), primvars);
         return primvars;
     }
 

@@ -99,6 +99,23 @@ void PointVelocities::read(TfToken const& primvar, VtValue const& value) {
     }
 }
 
+std::vector<hipr::Primvar> PointVelocities::takeUnfit(SdfPath const& id, size_t points,
+                                                      std::vector<hipr::Primvar>& primvars) const {
+    std::vector<hipr::Primvar> unfit;
+    for (auto const& [name, value] : {std::pair(HdTokens->velocities, &_velocities),
+                                      std::pair(HdTokens->accelerations, &_accelerations)}) {
+        const auto found =
+            std::find_if(primvars.begin(), primvars.end(),
+                         [name = name](hipr::Primvar const& primvar) { return name == primvar.name; });
+        const std::vector<glm::vec3> values = toVec3s(*value);
+        if (found != primvars.end() && !values.empty() && !usable(id, name.GetText(), values, points)) {
+            unfit.push_back(std::move(*found));
+            primvars.erase(found);
+        }
+    }
+    return unfit;
+}
+
 Samples<VtValue> PointVelocities::samples(HdSceneDelegate& delegate, SdfPath const& id,
                                           std::vector<glm::vec3> const& points,
                                           Sampling const& sampling) const {
@@ -131,6 +148,11 @@ Samples<VtValue> turnedBy(SdfPath const& id, VtValue const& rotations, VtValue c
         samples.values.emplace_back(turned);
     }
     return samples;
+}
+
+bool movesInstances(TfToken const& primvar) {
+    return primvar == HdTokens->velocities || primvar == HdTokens->accelerations ||
+           primvar == "angularVelocities";
 }
 
 VtValue valueAtFrame(HdSceneDelegate& delegate, SdfPath const& id, TfToken const& name) {

@@ -7,6 +7,7 @@
 
 #include "plugin/hdHipr/motion.h"
 #include "plugin/hdHipr/sampling.h"
+#include "renderer/api/mesh.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
 
@@ -23,6 +24,10 @@ public:
     /// A primvar was read, perhaps one of those that count here; empty: there is none.
     void read(TfToken const& primvar, VtValue const& value);
     bool any() const { return !_velocities.IsEmpty(); }
+    /// Takes those that do not fit so many points out of `primvars`, and tells of them: what is made of the
+    /// primvars would tell of them once more.
+    std::vector<hipr::Primvar> takeUnfit(SdfPath const& id, size_t points,
+                                         std::vector<hipr::Primvar>& primvars) const;
     /// Where `points` are over the shutter: by their velocities, else as the scene samples them.
     Samples<VtValue> samples(HdSceneDelegate& delegate, SdfPath const& id,
                              std::vector<glm::vec3> const& points, Sampling const& sampling) const;
@@ -35,6 +40,9 @@ private:
 /// turns by half a turn from one sample to the next.
 Samples<VtValue> turnedBy(SdfPath const& id, VtValue const& rotations, VtValue const& angularVelocities,
                           Sampling const& sampling);
+
+/// Whether a primvar of instances is one of those by which they move.
+bool movesInstances(TfToken const& primvar);
 
 /// A value at the frame's own time, of a primvar or, as UsdImaging reads it, an attribute of this name; empty
 /// where there is none. Reads a sample.

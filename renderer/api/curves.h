@@ -58,7 +58,7 @@ CurveForm curveForm(const CurvesDesc& desc);
 /// (shaders/shared/segment.h). Others are tubes of triangles, closed at both ends, or with `normals` flat ribbons that
 /// face them: at level 0 a cubic segment has 8 steps and a tube 16 sides, ribbons of more than 4,096 segments 4 steps;
 /// where that would give more than 16 million triangles, tubes have fewer sides. elementId is the curve. Curves
-/// with too few points, with points that are no numbers, or beyond the end of `points` are dropped with one
+/// with too few points, with points that are no numbers, above 1e18, or beyond the end of `points` are dropped with one
 /// message for each reason. Never throws on bad data.
 ///
 /// Frames are carried along the curve by double reflection: W. Wang et al., "Computation of Rotation

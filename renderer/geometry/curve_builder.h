@@ -10,6 +10,9 @@
 
 namespace hipr::geometry {
 
+/// Of points and radii; its square is finite.
+constexpr float LargestCoordinate = 1e18f;
+
 /// A curve that can be built.
 struct Curve {
     uint32_t index;        ///< authored
@@ -94,10 +97,10 @@ private:
     const glm::vec3& control(uint32_t i) const {
         return _desc.points[_desc.pointIndices.empty() ? i : size_t(_desc.pointIndices[i])];
     }
+    /// Of a control point that is there: whether its index names a point.
     bool exists(size_t i) const {
-        if (_desc.pointIndices.empty()) return i < _desc.points.size();
-        return i < _desc.pointIndices.size() && _desc.pointIndices[i] >= 0 &&
-               size_t(_desc.pointIndices[i]) < _desc.points.size();
+        return _desc.pointIndices.empty() ||
+               (_desc.pointIndices[i] >= 0 && size_t(_desc.pointIndices[i]) < _desc.points.size());
     }
     glm::vec3 pointAt(const Curve& curve, const std::array<float, 4>& weights,
                       const CurveSample& sample) const {
@@ -112,7 +115,7 @@ private:
     float radius(const Curve& curve, const CurveSample& sample) const {
         float width = _desc.width;
         if (_widths) _widths->evaluate(curve, sample, &width);
-        return std::max(0.5f * width, 0.f);
+        return std::min(std::max(0.f, 0.5f * width), LargestCoordinate); // in this order 0 for NaN
     }
     CurveSample sampleAt(const Curve& curve, uint32_t segment, float t) const {
         return sampleCurve(_desc.basis, _desc.wrap, curve.count, segment, t);

@@ -45,7 +45,8 @@ int CurveBuilder::stepsOf(const Curve& curve, uint32_t segment) const {
     const float off = std::ldexp(std::max(WidthBend * width, LengthBend * glm::length(chord)),
                                  -2 * std::clamp(_desc.refineLevel, 0, MostLevels));
     const float steps = std::ceil(std::sqrt(bend / (8.f * std::max(off, 1e-30f))));
-    return int(std::clamp(steps, 1.f, float(MostSteps << std::clamp(_desc.refineLevel, 0, MostLevels))));
+    const float most = float(MostSteps << std::clamp(_desc.refineLevel, 0, MostLevels));
+    return int(std::min(std::max(1.f, steps), most)); // in this order 1 for lengths that overflow to NaN
 }
 
 CurveForm CurveBuilder::chooseForm() const {

@@ -11,6 +11,11 @@ namespace {
 constexpr size_t ManyTriangles = size_t(16) << 20;
 constexpr int MaxLevel = 8;
 
+/// Whether lengths between such points can be told from infinity.
+bool drawable(const glm::vec3& point) {
+    return glm::all(glm::lessThanEqual(glm::abs(point), glm::vec3(LargestCoordinate)));
+}
+
 /// Whether every element has a finite value.
 bool fits(const Primvar& primvar, size_t elements) {
     const size_t values = primvar.components ? primvar.values.size() / primvar.components : 0;
@@ -39,25 +44,30 @@ std::shared_ptr<TriangleMesh> CurveBuilder::build() {
 }
 
 void CurveBuilder::findCurves() {
+    const size_t controls = _desc.pointIndices.empty() ? _desc.points.size() : _desc.pointIndices.size();
     size_t first = 0, tooFew = 0, beyond = 0, broken = 0;
     const std::set<int> hidden(_desc.hiddenCurves.begin(), _desc.hiddenCurves.end());
     for (size_t i = 0; i < _desc.vertexCounts.size(); ++i) {
         const int count = std::max(_desc.vertexCounts[i], 0);
         const Curve curve{uint32_t(i), uint32_t(first), uint32_t(count), _varyingCount, _segmentCount};
-        _varyingCount += varyingOf(curve);
-        _segmentCount += segmentsOf(curve);
         first += size_t(count);
+        const bool fits = first <= controls; // else the sums may be too large for 32 bits
+        const uint32_t segments = segmentsOf(curve);
+        if (fits) {
+            _varyingCount += varyingOf(curve);
+            _segmentCount += segments;
+        }
         const auto all = [&](auto good) {
             for (uint32_t p = curve.first; p < curve.first + curve.count; ++p)
                 if (!good(p)) return false;
             return true;
         };
         if (hidden.count(int(i))) continue;
-        if (segmentsOf(curve) == 0)
+        if (segments == 0)
             ++tooFew;
-        else if (!all([&](uint32_t p) { return exists(p); }))
+        else if (!fits || !all([&](uint32_t p) { return exists(p); }))
             ++beyond;
-        else if (!all([&](uint32_t p) { return isFinite(control(p)); }))
+        else if (!all([&](uint32_t p) { return drawable(control(p)); }))
             ++broken;
         else
             _curves.push_back(curve);
@@ -69,7 +79,7 @@ void CurveBuilder::findCurves() {
     };
     tell(tooFew, "too few control points for their basis");
     tell(beyond, "their control points are beyond the end of the points");
-    tell(broken, "control points that are NaN or infinite");
+    tell(broken, "control points that are NaN, infinite or above 1e18");
 }
 
 void CurveBuilder::findPrimvars() {

@@ -17,6 +17,7 @@ namespace {
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::UnorderedElementsAre;
 
 const SdfPath eye("/eye");
 
@@ -228,8 +229,33 @@ TEST_F(Motion, byVelocitiesWithoutOneForEachIsTold) {
         VtValue(VtVec3fArray(4, GfVec3f(std::numeric_limits<float>::infinity())));
     host.scene().tracker().MarkRprimDirty(SdfPath("/square"), HdChangeTracker::DirtyPoints);
     expectStill();
-    EXPECT_THAT(warnings.texts(), Contains(HasSubstr("</square>: it has 3 velocities where 4 are wanted")));
-    EXPECT_THAT(warnings.texts(), Contains(HasSubstr("</square>: some of its velocities are no numbers")));
+    EXPECT_THAT(warnings.texts(), ElementsAre(HasSubstr("</square>: it has 3 velocities where 4 are wanted"),
+                                              HasSubstr("</square>: some of its velocities are no numbers")));
+}
+
+TEST_F(Motion, byVelocitiesThatDoNotFitIsToldOnceOfEveryPrim) {
+    const SdfPath placing("/placing"), square("/placing/square"), curve("/curve"), balls("/balls");
+    const TestScene::Primvar one{HdInterpolationVertex, velocities(1, 1.0)};
+    const float nan = std::nanf("");
+    host.scene().addInstancer(placing, square, {GfVec3f(0.f), GfVec3f(1, 0, 0)});
+    auto& placed = host.scene().addSquare(square, GfVec3f(0.5f), placing);
+    placed.primvars[HdTokens->velocities] = {HdInterpolationVertex, velocities(4, 1.0)};
+    placed.primvars[HdTokens->accelerations] = {HdInterpolationVertex,
+                                                VtValue(VtVec3fArray(4, GfVec3f(nan)))};
+    auto& placings = host.scene().prim(placing).primvars;
+    placings[HdTokens->velocities] = {HdInterpolationInstance, velocities(1, 1.0)};
+    placings[TfToken("rotate")] = {HdInterpolationInstance, VtValue(VtVec4fArray(2, GfVec4f(1, 0, 0, 0)))};
+    placings[TfToken("angularVelocities")] = {HdInterpolationInstance, velocities(1, 1.0)};
+    host.scene().addCurve(curve, GfVec3f(0.5f)).primvars[HdTokens->velocities] = {HdInterpolationVertex,
+                                                                                  velocities(1, 1.0)};
+    host.scene().addPoints(balls, VtVec3fArray(2, GfVec3f(0.5f))).primvars[HdTokens->accelerations] = one;
+    ASSERT_TRUE(host.render());
+    EXPECT_THAT(warnings.texts(),
+                UnorderedElementsAre(HasSubstr("</placing/square>: some of its accelerations are no numbers"),
+                                     HasSubstr("</placing>: it has 1 velocities where 2 are wanted"),
+                                     HasSubstr("</placing>: it has 1 angularVelocities where 2 are wanted"),
+                                     HasSubstr("</curve>: it has 1 velocities where 3"),
+                                     HasSubstr("</balls>: it has 1 accelerations where 2 are wanted")));
 }
 
 /// As a host tells it where Hydra has no samples of what computations read.

@@ -1,14 +1,17 @@
 // Random descriptions, mostly wrong: whatever goes in, what comes out keeps TriangleMesh's promises.
-#include <random>
+#include <limits>
 
+#include "random_values.h"
 #include "test_mesh.h"
 
 namespace hipr::test {
 namespace {
 
-class RandomMesh {
+class RandomMesh : RandomValues {
 public:
-    explicit RandomMesh(uint32_t seed) : _random(seed) {}
+    explicit RandomMesh(uint32_t seed)
+        : RandomValues(seed, 0.005,
+                       {std::nanf(""), std::numeric_limits<float>::infinity(), 1e30f, -1e30f, 1e-40f}) {}
 
     MeshDesc make() {
         MeshDesc desc;
@@ -40,18 +43,6 @@ public:
     }
 
 private:
-    int integer(int low, int high) { return std::uniform_int_distribution<int>(low, high)(_random); }
-    bool chance(double p) { return std::bernoulli_distribution(p)(_random); }
-
-    float number() {
-        if (!chance(0.005)) return std::uniform_real_distribution<float>(-2.f, 2.f)(_random);
-        const float odd[] = {std::nanf(""), std::numeric_limits<float>::infinity(), 1e30f, -1e30f, 1e-40f};
-        return odd[integer(0, 4)];
-    }
-
-    /// Coarse, so that points coincide and polygons degenerate now and then.
-    float coordinate() { return chance(0.3) ? float(integer(-1, 1)) : number(); }
-
     int anyIndex(size_t size) {
         if (chance(0.02)) return integer(-2, int(size) + 1);
         return size == 0 ? 0 : integer(0, int(size) - 1);
@@ -104,8 +95,6 @@ private:
         }
         if (chance(0.05)) desc.cornerWeights.push_back(1.f);
     }
-
-    std::mt19937 _random;
 };
 
 void expectPromisesKept(const TriangleMesh& mesh, const MeshDesc& desc) {
