@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "renderer/shading/graph_program.h"
+#include "renderer/shading/material_traits.h"
 #include "renderer/shading/media.h"
 
 namespace hipr {
@@ -132,10 +133,6 @@ bool constantOpacity(const ResolvedMaterial& m, const TextureStore& textures, fl
     }
     if (threshold.constant.x > 0.f) opacity = opacity >= threshold.constant.x ? 1.f : 0.f;
     return true;
-}
-
-bool mayExceed(const ResolvedInput& input, float least) {
-    return input.kind != Source::Constant || input.constant.x > least;
 }
 
 /// How (1 - opacity) of the light passes; see shaders/shared/material.h.
@@ -294,9 +291,7 @@ struct Resolver {
 
     /// Stretched highlights follow the texture coordinates: those of the normal map, else st.
     void addTangent(std::vector<ResolvedInput>& inputs) {
-        if (!mayExceed(inputs[gpu::INPUT_SPECULAR_ANISOTROPY], 0.f) &&
-            !mayExceed(inputs[gpu::INPUT_COAT_ANISOTROPY], 0.f))
-            return;
+        if (!isStretched(inputs)) return;
         const MaterialInput normal = openPbrInput(desc, OpenPbrInput::GeometryNormal);
         MaterialInput reader;
         reader.source = Source::Primvar;
@@ -373,26 +368,6 @@ MaterialRow describeMaterial(const ResolvedMaterial& material, const TextureStor
         node.udimTiles = range.udimTiles;
     }
     return row;
-}
-
-bool isEmissive(const ResolvedMaterial& material) {
-    const ResolvedInput& color = material.inputs[gpu::INPUT_EMISSION_COLOR];
-    const bool colored = color.kind != Source::Constant || glm::vec3(color.constant) != glm::vec3(0.f);
-    return colored && (material.model != MaterialModel::OpenPbr ||
-                       mayExceed(material.inputs[gpu::INPUT_EMISSION_LUMINANCE], 0.f));
-}
-
-float emittedLuminance(const ResolvedMaterial& material) {
-    const auto typical = [](const ResolvedInput& input) {
-        if (input.kind == Source::Constant) return input.constant;
-        if (input.kind != Source::Texture) return glm::vec4(1.f);
-        return glm::max(glm::abs(input.scale + input.bias), glm::abs(input.bias));
-    };
-    glm::vec4 emitted = typical(material.inputs[gpu::INPUT_EMISSION_COLOR]);
-    if (material.model == MaterialModel::OpenPbr)
-        emitted *= typical(material.inputs[gpu::INPUT_EMISSION_LUMINANCE]).x;
-    const float luminance = 0.2126f * emitted.x + 0.7152f * emitted.y + 0.0722f * emitted.z;
-    return std::min(std::max(luminance, 1e-20f), 1e20f);
 }
 
 } // namespace hipr

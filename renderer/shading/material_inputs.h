@@ -62,10 +62,4 @@ struct MaterialRow {
 /// Valid after TextureStore::commit().
 MaterialRow describeMaterial(const ResolvedMaterial& material, const TextureStore& textures);
 
-bool isEmissive(const ResolvedMaterial& material);
-
-/// About the luminance of what it emits, in nits, above 0 and finite if it is emissive: what textures,
-/// primvars and graphs give counts as 1.
-float emittedLuminance(const ResolvedMaterial& material);
-
 } // namespace hipr

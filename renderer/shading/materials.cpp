@@ -8,8 +8,10 @@
 #include "renderer/api/cryptomatte.h"
 #include "renderer/shading/albedo.h"
 #include "renderer/shading/material_inputs.h"
+#include "renderer/shading/material_traits.h"
 #include "renderer/shading/openpbr_albedo.h"
 #include "renderer/shading/row_store.h"
+#include "renderer/shading/stretched_albedo.h"
 
 namespace hipr {
 
@@ -66,11 +68,11 @@ struct MaterialTable::Impl {
     uint32_t used = 0;     ///< records in use or free below
     uint32_t capacity = 0; ///< records the buffer holds
     RowStore rows;
-    bool openPbrUsed = false;
+    bool openPbrUsed = false, stretchedUsed = false;
     std::set<MaterialId> dirty, emissive;
     bool moved = false; ///< everything is to be written anew, even if a commit fails in between
     uint32_t textureVersion = 0;
-    Buffer records, albedo, openPbrAlbedo;
+    Buffer records, albedo, openPbrAlbedo, stretchedAlbedo;
 
     void grow();
     void write(Material& material);
@@ -83,6 +85,7 @@ void MaterialTable::Impl::grow() {
         const std::vector<float>& table = openPbrAlbedoTable();
         openPbrAlbedo = device.createFrom(table.data(), table.size(), "materials");
     }
+    if (!stretchedAlbedo && stretchedUsed) stretchedAlbedo = stretchedAlbedoTable(device);
     if (used <= capacity) return;
     const uint32_t more = doubledCapacity(capacity, used);
     records = device.createBuffer(more * sizeof(MaterialRecord), MemoryUse::Device, "materials");
@@ -141,6 +144,7 @@ void MaterialTable::set(MaterialId id, const MaterialDesc& desc) {
     // New textures are acquired before old ones are released, so that those in both stay loaded.
     ResolvedMaterial inputs = resolveMaterial(desc, _impl->names, _impl->textures, _impl->device.messages());
     _impl->openPbrUsed |= inputs.model == MaterialModel::OpenPbr;
+    _impl->stretchedUsed |= isStretched(inputs.inputs);
     const auto known = _impl->materials.find(id);
     if (known != _impl->materials.end()) {
         Impl::Material& material = known->second;
@@ -235,6 +239,7 @@ void MaterialTable::describe(gpu::SceneRecord& scene) const {
     scene.materials = _impl->records.address();
     scene.specularAlbedo = _impl->albedo.address();
     scene.openPbrAlbedo = _impl->openPbrAlbedo ? _impl->openPbrAlbedo.address() : 0;
+    scene.stretchedAlbedo = _impl->stretchedAlbedo ? _impl->stretchedAlbedo.address() : 0;
 }
 
 } // namespace hipr

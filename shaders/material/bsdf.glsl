@@ -32,8 +32,6 @@ const uint LOBE_SUBSURFACE = 6u;   // into the medium below: no BSDF, evalBsdf l
 
 LobeShares lobeShares; // of the last result of evalBsdfScaled(), which is their sum but for rounding
 
-mat3 lobeFrame(Surface s) { return mat3(s.tangent, cross(s.ns, s.tangent), s.ns); }
-
 // The coat's axes in the frame of the lobes.
 mat3 coatFrame(Surface s) {
     if (!sceneHas(SCENE_HAS_DIRECTIONS)) return mat3(1.0);
@@ -94,12 +92,12 @@ vec3 coupling(Surface s, vec3 in_) {
 // All lobes that reflect; o and i are local and above the surface. result = f * cos.
 vec3 evalReflection(Surface s, vec3 o, vec3 i, vec3 h, Facets facets, vec2 lobeScale, out float pdf) {
     vec3 specular = (s.metal * metalFresnel(s, facets.cosine) + s.dielectric * facets.fresnel) * mirrored(facets);
-    vec2 single = specularAlbedo(s.albedoTable, i.z, s.roughness);
+    vec2 single = facetAlbedo(s, i);
 
     float coatPdf, coat = s.coat * coatReflection(s, o, i, h, coatPdf);
     vec3 below = s.below, interfaceIn;
     if (s.openPbr) {
-        vec2 towards = interfaceAlbedo(s.openPbrTable, interfaceCell(s.dense, s.interfaceStep, s.roughness), i.z);
+        vec2 towards = baseAlbedo(s, s.dense, i);
         interfaceIn = vec3(sheetReflectance(s, towards.x));
         float missing = 1.0 - single.x - single.y;
         float lost = s.thinWalled ? missing : 1.0 - towards.y;
@@ -141,8 +139,7 @@ vec3 evalTransmission(Surface s, vec3 o, vec3 i, vec3 h, Facets facets, vec2 lob
     }
     if (s.openPbr) {
         bool otherSide = s.thinWalled ? s.dense : !s.dense;
-        vec2 towards = interfaceAlbedo(s.openPbrTable, interfaceCell(otherSide, s.interfaceStep, s.roughness), -i.z);
-        vec2 single = specularAlbedo(s.albedoTable, -i.z, s.roughness);
+        vec2 towards = baseAlbedo(s, otherSide, i), single = facetAlbedo(s, i);
         glass += s.glassTint * s.multiDown * (s.thinWalled ? 1.0 - single.x - single.y : 1.0 - towards.y) * away;
         diffuse = s.scatterDown * coupling(s, vec3(sheetReflectance(s, towards.x))) * away;
     }

@@ -35,6 +35,7 @@ struct Surface {
     float filmIor;
     float filmThickness; // micrometres
     float roughness;
+    float anisotropy;
     vec2 alpha;         // GGX slope parameters along tangent and bitangent
     vec3 diffuse;       // colour of the diffuse lobe below the interface
     float diffuseWeight;
@@ -47,13 +48,14 @@ struct Surface {
     float coat;         // weight of the clear coat
     float coatEta;
     float coatRoughness;
+    float coatAnisotropy;
     vec2 coatAlpha;
     float fuzz;         // weight of the fuzz
     vec3 fuzzColor;
     float fuzzRoughness;
 
     // What depends on the viewer, too.
-    uint64_t albedoTable, openPbrTable;
+    uint64_t albedoTable, openPbrTable, stretchedTable;
     float interfaceStep; // |(1 - index) / (1 + index)| of the interface
     bool inside;         // the viewer is inside the object
     bool dense;          // the index is higher on the viewer's side
@@ -71,6 +73,8 @@ struct Surface {
     vec4 lobeChance;    // of sampling coat, specular, diffuse, glass
     vec3 moreChance;    // of sampling light through the surface, fuzz, subsurface; sums to 1 with lobeChance
 };
+
+mat3 lobeFrame(Surface s) { return mat3(s.tangent, cross(s.ns, s.tangent), s.ns); }
 
 // Reflectance of the interface from that of one facet or side: a sheet reflects at both sides and between them.
 float sheetReflectance(Surface s, float reflectance) {

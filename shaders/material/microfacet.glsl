@@ -10,6 +10,13 @@
 // of single precision. Mirrors and clear glass are such lobes; no lobe is a delta distribution.
 const float MIN_ALPHA = 2e-4;
 
+// Slope parameters along tangent and bitangent: OpenPBR Surface specification, "Microfacet model".
+vec2 stretchedAlpha(float roughness, float anisotropy) {
+    float across = 1.0 - clamp(anisotropy, 0.0, 1.0);
+    float along = roughness * roughness * sqrt(2.0 / (1.0 + across * across));
+    return max(vec2(along, across * along), MIN_ALPHA);
+}
+
 // Density of microfacet normals (Walter eq. 33, stretched along x and y), written in sines so that no small difference is
 // taken.
 float ggxDensity(vec3 h, vec2 alpha) {

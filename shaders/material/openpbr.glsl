@@ -2,23 +2,9 @@
 #ifndef HIPR_MATERIAL_OPENPBR_GLSL
 #define HIPR_MATERIAL_OPENPBR_GLSL
 #include "material/inputs.glsl"
-#include "material/lobes.glsl"
-#include "material/openpbr_albedo.glsl"
+#include "material/facet_albedo.glsl"
 #include "material/oren_nayar.glsl"
 #include "shared/fuzz.h"
-
-// Slope parameters along tangent and bitangent: specification, "Microfacet model".
-vec2 stretchedAlpha(float roughness, float anisotropy) {
-    float across = 1.0 - clamp(anisotropy, 0.0, 1.0);
-    float along = roughness * roughness * sqrt(2.0 / (1.0 + across * across));
-    return max(vec2(along, across * along), MIN_ALPHA);
-}
-
-// The roughness of an even lobe that loses as much light as a stretched one; fitted to quadratures, see docs/materials.md.
-float evenRoughness(float roughness, float anisotropy) {
-    float a = clamp(anisotropy, 0.0, 1.0), squared = roughness * roughness;
-    return roughness * sqrt(1.0 - 0.13 * a * sqrt(a) * squared * squared);
-}
 
 // Reflectance at normal incidence is the square of this.
 float indexStep(float eta) { return abs(1.0 - eta) / (1.0 + eta); }
@@ -78,14 +64,15 @@ void setOpenPbrLobes(inout Surface s, MaterialInputs inputs, uint flags) {
     s.fuzzRoughness = clamp(inputs.fuzzRoughness, FUZZ_LEAST_ROUGHNESS, 1.0);
     s.coatEta = clamp(inputs.coatIor, 0.1, 10.0) / s.aroundIor;
     float coatRoughness = clamp(inputs.coatRoughness, 0.0, 1.0), coat2 = coatRoughness * coatRoughness;
-    s.coatRoughness = evenRoughness(coatRoughness, inputs.coatAnisotropy);
+    s.coatRoughness = coatRoughness;
+    s.coatAnisotropy = clamp(inputs.coatAnisotropy, 0.0, 1.0);
     s.coatAlpha = stretchedAlpha(coatRoughness, inputs.coatAnisotropy);
     s.coatAbsorption = 0.5 * log(clamp(inputs.coatColor, 1e-4, 1.0));
     // A rough coat blurs what is below: specification, "Roughening".
     float rough = clamp(inputs.roughness, 0.0, 1.0), rough2 = rough * rough;
-    rough = mix(rough, sqrt(sqrt(min(1.0, rough2 * rough2 + 2.0 * coat2 * coat2))), coat);
-    s.roughness = evenRoughness(rough, inputs.anisotropy);
-    s.alpha = stretchedAlpha(rough, inputs.anisotropy);
+    s.roughness = mix(rough, sqrt(sqrt(min(1.0, rough2 * rough2 + 2.0 * coat2 * coat2))), coat);
+    s.anisotropy = clamp(inputs.anisotropy, 0.0, 1.0);
+    s.alpha = stretchedAlpha(s.roughness, s.anisotropy);
     float eta = interfaceIndex(inputs, s.aroundIor, coat, s.interfaceStep);
     if ((flags & MATERIAL_REFRACTIVE) != 0u) eta = usableIor(eta);
     s.eta = s.inside ? 1.0 / eta : eta;
@@ -116,25 +103,22 @@ vec3 coatDarkening(Surface s, float cosine, float weight) {
 // course: what one bounce loses comes back evenly. Metal colours it; an interface transmits as much of it as reciprocity
 // allows, and reflects the rest.
 void setOpenPbrMulti(inout Surface s, vec2 single, vec2 seen, vec2 mean) {
-    vec2 metal = meanSpecularAlbedo(s.albedoTable, s.roughness);
-    float whole = metal.x + metal.y, missing = 1.0 - (single.x + single.y);
+    float whole = meanFacetAlbedo(s), missing = 1.0 - (single.x + single.y);
     vec3 average = clamp(s.f0 + (1.0 - s.f0) / 21.0 - s.edge / 126.0, 0.0, 1.0);
     s.multiMetal = s.metal * average * average * whole / (1.0 - average * (1.0 - whole));
     s.multiMetal *= missing / max(1.0 - whole, 1e-4);
-    InterfaceCell other = interfaceCell(!s.dense, s.interfaceStep, s.roughness);
-    float here = max(1.0 - mean.y, 1e-5), there = max(1.0 - meanInterfaceAlbedo(s.openPbrTable, other).y, 1e-5);
+    float here = max(1.0 - mean.y, 1e-5), there = max(1.0 - meanBaseAlbedo(s, !s.dense).y, 1e-5);
     float transmitted = s.thinWalled ? 0.5 : min(1.0, there * s.eta * s.eta / here);
     float lost = s.glass * (s.thinWalled ? missing / max(1.0 - whole, 1e-4) : 1.0 - seen.y);
     s.multiUp = lost * (1.0 - transmitted) / (s.thinWalled ? 1.0 : here);
     s.multiDown = lost * transmitted / (s.thinWalled ? 1.0 : there);
 }
 
-// What depends on the viewer: albedos of the lobes seen from `cosine`, `coatCosine` to the coat's normal, and how often
+// What depends on the viewer: albedos of the lobes seen from `o` in their frame, `coatO` in that of the coat, and how often
 // each is sampled.
-void setOpenPbrViewer(inout Surface s, float darkening, float cosine, float coatCosine) {
-    vec2 single = specularAlbedo(s.albedoTable, cosine, s.roughness);
-    InterfaceCell cell = interfaceCell(s.dense, s.interfaceStep, s.roughness);
-    vec2 seen = interfaceAlbedo(s.openPbrTable, cell, cosine), mean = meanInterfaceAlbedo(s.openPbrTable, cell);
+void setOpenPbrViewer(inout Surface s, float darkening, vec3 o, vec3 coatO) {
+    float cosine = o.z, coatCosine = coatO.z;
+    vec2 single = facetAlbedo(s, o), seen = baseAlbedo(s, s.dense, o), mean = meanBaseAlbedo(s, s.dense);
     s.interfaceOut = vec3(sheetReflectance(s, seen.x));
     if (s.film > 0.0) { // by as much as it changes a smooth interface
         s.interfaceOut += interfaceFresnel(s, cosine) - sheetReflectance(s, dielectricFresnel(cosine, s.eta));
@@ -144,8 +128,8 @@ void setOpenPbrViewer(inout Surface s, float darkening, float cosine, float coat
     s.orenNayarOut = orenNayarAlbedo(cosine, s.diffuseRoughness);
     setOpenPbrMulti(s, single, seen, mean);
 
-    InterfaceCell coat = interfaceCell(false, indexStep(s.coatEta), s.coatRoughness);
-    float coatAlbedo = interfaceAlbedo(s.openPbrTable, coat, coatCosine).x;
+    Interface coat = Interface(false, indexStep(s.coatEta), s.coatRoughness, s.coatAnisotropy);
+    float coatAlbedo = interfaceAlbedo(s, coat, coatO).x;
     s.coatOut = s.coat * coatAlbedo;
     vec3 absorbed = exp(s.coatAbsorption / cosineInCoat(s, coatCosine));
     s.coatThrough = (1.0 - coatAlbedo) * absorbed;
@@ -176,8 +160,7 @@ void setSubsurfaceExit(inout Surface s) {
     s.glass = s.diffuseWeight = s.subsurface = s.coat = s.fuzz = s.multiUp = s.multiDown = s.coatOut = s.fuzzOut = 0.0;
     s.scatterDown = s.below = vec3(1.0);
     s.inside = s.dense = true;
-    InterfaceCell outside = interfaceCell(false, s.interfaceStep, s.roughness);
-    s.interfaceMean = vec3(meanInterfaceAlbedo(s.openPbrTable, outside).x);
+    s.interfaceMean = vec3(meanBaseAlbedo(s, false).x);
     s.lobeChance = vec4(0.0);
     s.moreChance = vec3(1.0, 0.0, 0.0);
 }

@@ -27,6 +27,7 @@ void setPreviewLobes(inout Surface s, MaterialInputs inputs, uint flags) {
     s.filmIor = 1.0;
     s.eta = s.frontFacing ? ior : 1.0 / ior;
     s.roughness = clamp(inputs.roughness, 0.0, 1.0);
+    s.anisotropy = s.coatAnisotropy = 0.0;
     s.alpha = vec2(max(s.roughness * s.roughness, MIN_ALPHA));
     s.diffuse = specularWorkflow ? color : color * (1.0 - metallic);
     s.diffuseWeight = 1.0 - s.glass;

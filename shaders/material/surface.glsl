@@ -61,14 +61,14 @@ void setDirections(inout Surface s, MaterialInputs inputs, vec3 wo) {
 
 // The parameters of the lobes, seen from the direction `wo`.
 void setLobes(inout Surface s, MaterialInputs inputs, uint flags, vec3 wo) {
-    const float cosine = dot(s.ns, wo);
     s.openPbr = isOpenPbr(flags);
     if (s.openPbr) {
         setOpenPbrLobes(s, inputs, flags);
-        setOpenPbrViewer(s, clamp(inputs.coatDarkening, 0.0, 1.0), cosine, dot(s.coatNormal, wo));
+        const vec3 coatO = wo * mat3(s.coatTangent, cross(s.coatNormal, s.coatTangent), s.coatNormal);
+        setOpenPbrViewer(s, clamp(inputs.coatDarkening, 0.0, 1.0), wo * lobeFrame(s), coatO);
     } else {
         setPreviewLobes(s, inputs, flags);
-        setPreviewViewer(s, cosine);
+        setPreviewViewer(s, dot(s.ns, wo));
     }
 }
 
@@ -140,6 +140,7 @@ Surface evaluateSurface(SceneRecord scene, Hit hit, Ray ray, RayFootprint footpr
     setDirections(s, inputs, wo);
     s.albedoTable = scene.specularAlbedo;
     s.openPbrTable = scene.openPbrAlbedo;
+    s.stretchedTable = scene.stretchedAlbedo;
     setLobes(s, inputs, material.flags, wo);
     return s;
 }

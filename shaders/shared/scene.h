@@ -117,6 +117,7 @@ struct SceneRecord {
     uint categoryWords;
     uint64_t specularAlbedo; // vec2[]: see renderer/shading/albedo.h
     uint64_t openPbrAlbedo;  // tables of renderer/shading/openpbr_albedo.h; 0 without a material of that model
+    uint64_t stretchedAlbedo; // vec2[]: see renderer/shading/stretched_albedo.h; 0 without a material that needs it
     uint64_t categorySets;   // uint[][1 + categoryWords]: mark and bits of sets of categories, see renderer/shading/categories.h
     uint64_t volumes;        // VolumeRecord[volumeCount] (shaders/shared/volume.h)
     uint64_t blackbody;      // vec3[BLACKBODY_STEPS]; 0 without volumes

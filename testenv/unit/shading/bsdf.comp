@@ -6,7 +6,7 @@
 layout(local_size_x = 64) in;
 
 struct SurfaceParameters {
-    uint64_t constants, albedoTable, openPbrTable;
+    uint64_t constants, albedoTable, openPbrTable, stretchedTable;
     vec3 ng, ns, coatNormal, tangent;
     uint flags, frontFacing;
 };
@@ -39,6 +39,7 @@ Surface makeSurface(SurfaceParameters p, vec3 wo) {
     s.aroundIor = 1.0;
     s.albedoTable = p.albedoTable;
     s.openPbrTable = p.openPbrTable;
+    s.stretchedTable = p.stretchedTable;
     MaterialInputs inputs = constantInputs(p.constants, (p.flags & MATERIAL_OPENPBR) != 0u);
     inputs.coatNormal = p.coatNormal;
     inputs.specularTangent = p.tangent;

@@ -7,6 +7,7 @@
 #include "renderer/shading/albedo.h"
 #include "renderer/shading/material_inputs.h"
 #include "renderer/shading/openpbr_albedo.h"
+#include "renderer/shading/stretched_albedo.h"
 #include "testenv/unit/sampling/gpu.h"
 #include "testenv/unit/shading/picture.h"
 
@@ -26,7 +27,7 @@ const Kernel& kernel() {
 
 /// SurfaceParameters as bsdf.comp has them.
 struct KernelParameters {
-    VkDeviceAddress constants, albedoTable, openPbrTable;
+    VkDeviceAddress constants, albedoTable, openPbrTable, stretchedTable;
     glm::vec3 ng, ns, coatNormal, tangent;
     uint32_t flags, frontFacing;
 };
@@ -56,16 +57,18 @@ MaterialRow openPbrRow(const MaterialDesc& desc) {
 std::vector<Outcome> runBsdf(const SurfaceParameters& parameters, const std::vector<glm::vec3>& wo,
                              const std::vector<glm::vec3>& wi, const std::vector<glm::vec4>& u) {
     static const Buffer albedo = toDevice(specularAlbedoTable()),
-                        openPbrAlbedo = toDevice(openPbrAlbedoTable());
+                        openPbrAlbedo = toDevice(openPbrAlbedoTable()),
+                        stretchedAlbedo = stretchedAlbedoTable(testDevice());
     MaterialRow row;
     if (parameters.openPbr)
         row = openPbrRow(*parameters.openPbr);
     else
         row.constants = previewRow(parameters), row.flags = parameters.flags;
     const Buffer constants = toDevice(row.constants);
-    const KernelParameters p{constants.address(), albedo.address(), openPbrAlbedo.address(),
-                             parameters.ng,       parameters.ns,    parameters.coatNormal,
-                             parameters.tangent,  row.flags,        parameters.frontFacing};
+    const KernelParameters p{constants.address(),       albedo.address(),   openPbrAlbedo.address(),
+                             stretchedAlbedo.address(), parameters.ng,      parameters.ns,
+                             parameters.coatNormal,     parameters.tangent, row.flags,
+                             parameters.frontFacing};
     const Buffer parameterBuffer = testDevice().createFrom(&p, 1, "test");
     const Buffer woBuffer = toDevice(wo), wiBuffer = toDevice(wi), uBuffer = toDevice(u);
     const Buffer outcomes = emptyBuffer<Outcome>(wi.size());
