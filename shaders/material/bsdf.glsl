@@ -89,6 +89,14 @@ vec3 coupling(Surface s, vec3 in_) {
     return (1.0 - s.interfaceOut) * (s.film > 0.0 ? vec3(1.0) : (1.0 - in_) / max(1.0 - s.interfaceMean, 1e-4));
 }
 
+// What the coupling lacks for rough diffuse light, which leaves near where it came from, and the interface reflects more of
+// it there. Reciprocal; fitted so that all energy is kept to 0.7 %, see docs/materials.md.
+vec3 roughCoupling(Surface s, vec3 in_) {
+    if (s.diffuseRoughness == 0.0 || s.film > 0.0) return vec3(1.0);
+    float slope = 0.07 * s.diffuseRoughness;
+    return (1.0 + slope * (s.interfaceOut - s.interfaceMean)) * (1.0 + slope * (in_ - s.interfaceMean));
+}
+
 // All lobes that reflect; o and i are local and above the surface. result = f * cos.
 vec3 evalReflection(Surface s, vec3 o, vec3 i, vec3 h, Facets facets, vec2 lobeScale, out float pdf) {
     vec3 specular = (s.metal * metalFresnel(s, facets.cosine) + s.dielectric * facets.fresnel) * mirrored(facets);
@@ -110,7 +118,8 @@ vec3 evalReflection(Surface s, vec3 o, vec3 i, vec3 h, Facets facets, vec2 lobeS
         coat *= mix(COAT_F0, 1.0, schlickWeight(facets.cosine));
         below *= 1.0 - max(s.coatOut, s.coat * (COAT_F0 * coatTowards.x + coatTowards.y));
     }
-    vec3 diffuse = orenNayar(s.diffuse, s.diffuseRoughness, o, i, s.orenNayarOut) * s.diffuseWeight + s.scatterUp;
+    vec3 diffuse = orenNayar(s.diffuse, s.diffuseRoughness, o, i, s.orenNayarOut) * s.diffuseWeight;
+    diffuse = diffuse * roughCoupling(s, interfaceIn) + s.scatterUp;
     diffuse *= coupling(s, interfaceIn) * i.z / PI;
     float fuzz = s.fuzz > 0.0 ? s.fuzz * fuzzReflection(o, i, s.fuzzRoughness) : 0.0;
 
