@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "renderer/shading/ggx.h"
+#include "shaders/shared/hemisphere.h"
 #include "shaders/shared/material.h"
 
 namespace hipr {
@@ -34,9 +35,7 @@ const std::vector<glm::vec2>& specularAlbedoTable() {
                 const double x = double(i) / (Cosines - 1);
                 const glm::vec2 value = specularAlbedo(x * x, alpha, Steps);
                 values.push_back(value);
-                // Mean = integral of 2 c E(c) dc with c = x^2, by the trapezoidal rule in x.
-                mean += glm::dvec2(value) * (4.0 * x * x * x) * (i + 1 == Cosines ? 0.5 : 1.0) /
-                        double(Cosines - 1);
+                mean += glm::dvec2(value) * double(gpu::hemisphereShare(i, Cosines));
             }
             values.push_back(glm::vec2(mean));
         }

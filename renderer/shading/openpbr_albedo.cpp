@@ -4,6 +4,7 @@
 
 #include "renderer/shading/ggx.h"
 #include "shaders/shared/fuzz.h"
+#include "shaders/shared/hemisphere.h"
 #include "shaders/shared/material.h"
 
 namespace hipr {
@@ -33,16 +34,12 @@ void fillRow(glm::vec2* row, double eta, double alpha) {
     constexpr int Quadrature = 36;
     constexpr uint32_t Cosines = gpu::INTERFACE_COSINES;
     glm::dvec2 mean(0.0);
-    double weights = 0.0;
     for (uint32_t i = 0; i < Cosines; ++i) {
         const double root = double(i) / (Cosines - 1);
         row[i] = interfaceAlbedo(root * root, alpha, eta, Quadrature);
-        // Mean = integral of 2 c E(c) dc with c = root^2, by the trapezoidal rule.
-        const double weight = root * root * root * (i + 1 == Cosines ? 0.5 : 1.0);
-        mean += weight * glm::dvec2(row[i]);
-        weights += weight;
+        mean += glm::dvec2(row[i]) * double(gpu::hemisphereShare(i, Cosines));
     }
-    row[Cosines] = glm::vec2(mean / weights);
+    row[Cosines] = glm::vec2(mean);
 }
 
 std::vector<glm::vec2> interfaceTable() {

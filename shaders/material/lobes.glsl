@@ -62,8 +62,8 @@ struct Surface {
     vec3 interfaceOut;  // directional albedo of what lies on the diffuse lobe, towards the viewer
     vec3 interfaceMean; // its mean over all directions
     vec3 multiMetal;    // light reflected by several microfacets: by metal,
-    float multiUp;      // by the interface,
-    float multiDown;    // and through it
+    vec3 multiUp;       // by the interface,
+    vec3 multiDown;     // and through it
     float coatOut;      // directional albedo of the coat, weight included
     vec3 coatAbsorption; // logarithm of the coat's transmittance at normal incidence
     vec3 coatThrough;   // OpenPBR: what the coat lets through towards the viewer

@@ -43,6 +43,20 @@ vec3 sampleVisibleNormal(vec3 w, vec2 alpha, vec2 u) {
     return normalize(vec3(alpha * h.xy, max(h.z, 1e-7)));
 }
 
+// The part of what a facet `h` reflects that no other facet stops on its way up; `lambdaO` is ggxLambda(o).
+float reflectedPart(vec3 o, vec3 h, vec2 alpha, float lambdaO) {
+    vec3 i = 2.0 * dot(o, h) * h - o;
+    return i.z > 0.0 ? (1.0 + lambdaO) / (1.0 + lambdaO + ggxLambda(i, alpha)) : 0.0;
+}
+
+// The same of what it refracts, on its way down. Snell's law: Walter eq. 40.
+float refractedPart(vec3 o, vec3 h, vec2 alpha, float eta) {
+    float cosine = dot(o, h), inverse = 1.0 / eta;
+    float cosT = sqrt(max(0.0, 1.0 - inverse * inverse * (1.0 - cosine * cosine)));
+    vec3 i = normalize((inverse * cosine - cosT) * h - inverse * o);
+    return i.z < 0.0 ? 1.0 / (1.0 + ggxLambda(i, alpha)) : 0.0;
+}
+
 // (1 - cosine)^5 of Schlick's approximation (C. Schlick, "An Inexpensive BRDF Model", 1994).
 float schlickWeight(float cosine) {
     float m = clamp(1.0 - cosine, 0.0, 1.0);

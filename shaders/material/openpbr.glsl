@@ -101,15 +101,15 @@ vec3 coatDarkening(Surface s, float cosine, float weight) {
 
 // Light of several microfacets. C. Kulla and A. Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017
 // course: what one bounce loses comes back evenly. Metal colours it; an interface transmits as much of it as reciprocity
-// allows, and reflects the rest.
-void setOpenPbrMulti(inout Surface s, vec2 single, vec2 seen, vec2 mean) {
+// allows, and reflects the rest. `kept`: what the interface's facets reflect and transmit at once.
+void setOpenPbrMulti(inout Surface s, vec2 single, vec3 kept, vec2 mean) {
     float whole = meanFacetAlbedo(s), missing = 1.0 - (single.x + single.y);
     vec3 average = clamp(s.f0 + (1.0 - s.f0) / 21.0 - s.edge / 126.0, 0.0, 1.0);
     s.multiMetal = s.metal * average * average * whole / (1.0 - average * (1.0 - whole));
     s.multiMetal *= missing / max(1.0 - whole, 1e-4);
     float here = max(1.0 - mean.y, 1e-5), there = max(1.0 - meanBaseAlbedo(s, !s.dense).y, 1e-5);
     float transmitted = s.thinWalled ? 0.5 : min(1.0, there * s.eta * s.eta / here);
-    float lost = s.glass * (s.thinWalled ? missing / max(1.0 - whole, 1e-4) : 1.0 - seen.y);
+    vec3 lost = s.glass * (s.thinWalled ? vec3(missing / max(1.0 - whole, 1e-4)) : 1.0 - kept);
     s.multiUp = lost * (1.0 - transmitted) / (s.thinWalled ? 1.0 : here);
     s.multiDown = lost * transmitted / (s.thinWalled ? 1.0 : there);
 }
@@ -120,13 +120,16 @@ void setOpenPbrViewer(inout Surface s, float darkening, vec3 o, vec3 coatO) {
     float cosine = o.z, coatCosine = coatO.z;
     vec2 single = facetAlbedo(s, o), seen = baseAlbedo(s, s.dense, o), mean = meanBaseAlbedo(s, s.dense);
     s.interfaceOut = vec3(sheetReflectance(s, seen.x));
-    if (s.film > 0.0) { // by as much as it changes a smooth interface
-        s.interfaceOut += interfaceFresnel(s, cosine) - sheetReflectance(s, dielectricFresnel(cosine, s.eta));
-        s.interfaceOut = clamp(s.interfaceOut, 0.0, 1.0);
+    vec3 kept = vec3(seen.y);
+    if (s.film > 0.0) {
+        vec3 filmReflected, filmKept;
+        addFilmAlbedo(s, o, filmReflected, filmKept);
+        s.interfaceOut = clamp(s.interfaceOut + filmReflected, 0.0, 1.0);
+        kept = min(kept + filmKept, 1.0);
     }
     s.interfaceMean = vec3(sheetReflectance(s, mean.x));
     s.orenNayarOut = orenNayarAlbedo(cosine, s.diffuseRoughness);
-    setOpenPbrMulti(s, single, seen, mean);
+    setOpenPbrMulti(s, single, kept, mean);
 
     Interface coat = Interface(false, indexStep(s.coatEta), s.coatRoughness, s.coatAnisotropy);
     float coatAlbedo = interfaceAlbedo(s, coat, coatO).x;
@@ -143,7 +146,7 @@ void setOpenPbrViewer(inout Surface s, float darkening, vec3 o, vec3 coatO) {
     vec3 scattered = s.diffuse * s.diffuseWeight + s.scatterUp, under = s.subsurface * s.subsurfaceColor;
     vec3 below = base * s.below * mix(vec3(1.0), s.coatThrough * exp(s.coatAbsorption), s.coat);
     s.albedo = s.fuzzOut * s.fuzzColor + base * s.coatOut;
-    float entered = 1.0 - luminance(s.interfaceOut), lost = s.glass * (1.0 - seen.y);
+    float entered = 1.0 - luminance(s.interfaceOut), lost = s.glass * (1.0 - luminance(kept));
     s.albedo += below * (metal + reflected + entered * (scattered + s.scatterDown + under + s.glass * s.glassTint));
     float weight = luminance(below);
     s.lobeChance = vec4(base * s.coatOut, weight * (luminance(metal) + luminance(reflected) * (1.0 - s.transmission)),
@@ -156,8 +159,9 @@ void setOpenPbrViewer(inout Surface s, float darkening, vec3 o, vec3 coatO) {
 // The boundary of a subsurface medium seen from inside: lets light out evenly, less of it where the outside would
 // reflect it, as on the way in.
 void setSubsurfaceExit(inout Surface s) {
-    s.emission = s.metal = s.dielectric = s.scatterUp = s.interfaceOut = s.multiMetal = vec3(0.0);
-    s.glass = s.diffuseWeight = s.subsurface = s.coat = s.fuzz = s.multiUp = s.multiDown = s.coatOut = s.fuzzOut = 0.0;
+    s.emission = s.metal = s.dielectric = s.scatterUp = s.interfaceOut = vec3(0.0);
+    s.multiMetal = s.multiUp = s.multiDown = vec3(0.0);
+    s.glass = s.diffuseWeight = s.subsurface = s.coat = s.fuzz = s.coatOut = s.fuzzOut = 0.0;
     s.scatterDown = s.below = vec3(1.0);
     s.inside = s.dense = true;
     s.interfaceMean = vec3(meanBaseAlbedo(s, false).x);

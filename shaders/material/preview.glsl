@@ -52,9 +52,9 @@ void setPreviewViewer(inout Surface s, float cosine) {
     s.interfaceOut = s.f0 * towards.x + towards.y;
     s.interfaceMean = s.f0 * mean.x + mean.y;
     s.coatOut = s.coat * (COAT_F0 * coat.x + coat.y);
-    s.coatAbsorption = s.coatThrough = s.multiMetal = vec3(0.0);
+    s.coatAbsorption = s.coatThrough = s.multiMetal = s.multiUp = s.multiDown = vec3(0.0);
     s.below = vec3(1.0);
-    s.multiUp = s.multiDown = s.fuzzOut = s.orenNayarOut = s.interfaceStep = 0.0;
+    s.fuzzOut = s.orenNayarOut = s.interfaceStep = 0.0;
     s.inside = false;
     vec3 diffuse = s.diffuse * (1.0 - s.interfaceOut);
     float below = 1.0 - s.coatOut;

@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "material/microfacet.glsl"
+#include "shared/hemisphere.h"
 
 layout(local_size_x = 64) in;
 layout(buffer_reference, scalar, buffer_reference_align = 8) writeonly buffer TableRef { vec2 v[]; };
@@ -29,17 +30,9 @@ Lobe lobeOf(uint row) {
 
 // What a facet does with light from `o`.
 vec2 facetOutcome(Lobe lobe, vec3 o, vec3 h, float lambdaO) {
-    const float cosine = min(dot(o, h), 1.0), fresnel = lobe.mirror ? 1.0 : dielectricFresnel(cosine, lobe.eta);
-    const vec3 mirrored = 2.0 * cosine * h - o;
-    float back = 0.0, through = 0.0;
-    if (mirrored.z > 0.0) back = fresnel * (1.0 + lambdaO) / (1.0 + lambdaO + ggxLambda(mirrored, lobe.alpha));
-    if (fresnel < 1.0) {
-        const float inverse = 1.0 / lobe.eta;
-        const float cosT = sqrt(max(0.0, 1.0 - inverse * inverse * (1.0 - cosine * cosine)));
-        const vec3 refracted = normalize((inverse * cosine - cosT) * h - inverse * o);
-        if (refracted.z < 0.0) through = (1.0 - fresnel) / (1.0 + ggxLambda(refracted, lobe.alpha));
-    }
-    return vec2(back, back + through);
+    const float fresnel = lobe.mirror ? 1.0 : dielectricFresnel(min(dot(o, h), 1.0), lobe.eta);
+    const float back = fresnel * reflectedPart(o, h, lobe.alpha, lambdaO);
+    return vec2(back, back + (fresnel < 1.0 ? (1.0 - fresnel) * refractedPart(o, h, lobe.alpha, lobe.eta) : 0.0));
 }
 
 // Gauss and Legendre's quadrature with ten points, of which five mirror the others (M. Abramowitz and I. Stegun, "Handbook
@@ -63,15 +56,7 @@ vec2 albedo(Lobe lobe, vec3 o) {
     return sum / float(2u * turns);
 }
 
-// The integral of a hat of the piecewise linear interpolation in the root of the cosine, weighed by the cosine.
-float cosineShare(uint node) {
-    const float h = 1.0 / float(STRETCHED_COSINES - 1u), x = float(node) * h, before = x - h;
-    float rising = 0.5 * before * before * before + before * before * h + 0.75 * before * h * h + 0.2 * h * h * h;
-    float falling = 0.5 * x * x * x + 0.5 * x * x * h + 0.25 * x * h * h + 0.05 * h * h * h;
-    return 4.0 * h * ((node > 0u ? rising : 0.0) + (node + 1u < STRETCHED_COSINES ? falling : 0.0));
-}
-
-// The same of that in the cosine y of the azimuth, over a quarter of a turn.
+// The integral of a hat of the linear interpolation in the cosine y of the azimuth, over a quarter of a turn.
 float azimuthShare(uint node) {
     const float n = float(STRETCHED_AZIMUTHS - 1u), y = float(node) / n;
     const float before = max(y - 1.0 / n, 0.0), after = min(y + 1.0 / n, 1.0);
@@ -92,7 +77,7 @@ void main() {
         const float y = float(azimuth) / float(STRETCHED_AZIMUTHS - 1u), sine = sqrt(1.0 - cosine * cosine);
         const vec2 value = albedo(lobe, vec3(sine * y, sine * sqrt(1.0 - y * y), cosine));
         table.v[row * STRETCHED_ROW + i] = value;
-        mean += value * (cosineShare(node) * azimuthShare(azimuth));
+        mean += value * (hemisphereShare(node, STRETCHED_COSINES) * azimuthShare(azimuth));
     }
     sums[lane] = mean;
     barrier();
