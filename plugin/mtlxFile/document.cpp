@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "plugin/mtlxFile/cycleFinder.h"
+
 namespace hipr::mtlx {
 
 namespace {
@@ -30,35 +32,6 @@ size_t lineOf(std::string const& text, ptrdiff_t offset) {
     const auto end = text.begin() + std::min(offset, ptrdiff_t(text.size()));
     return 1 + size_t(std::count(text.begin(), end, '\n'));
 }
-
-/// Finds the connections that close a cycle, in depth first order.
-class CycleFinder {
-public:
-    /// @param next  what an element depends on, each with what makes it so
-    using Edges = std::function<std::vector<std::pair<Node, Node>>(Node)>;
-    explicit CycleFinder(Edges next) : _next(std::move(next)) {}
-
-    std::vector<Node> closing; ///< what makes an element depend on itself
-
-    void visit(Node element) {
-        if (!_seen.insert(element).second) {
-            return;
-        }
-        _open.insert(element);
-        for (auto const& [why, target] : _next(element)) {
-            if (_open.count(target)) {
-                closing.push_back(why);
-            } else {
-                visit(target);
-            }
-        }
-        _open.erase(element);
-    }
-
-private:
-    Edges _next;
-    std::set<Node> _seen, _open;
-};
 
 } // namespace
 
@@ -242,10 +215,19 @@ Node Document::source(Node input) const {
     if (name.empty() || isRoot(around)) {
         return name.empty() ? Node() : find(input, name);
     }
-    return around.find_child([&](Node element) {
-        return !isInput(element) && std::string(element.name()) != "output" &&
-               attribute(element, "name") == name;
-    });
+    auto const& members = membersOf(around);
+    const auto found = members.find(name);
+    return found == members.end() ? Node() : found->second;
+}
+
+Document::Names const& Document::membersOf(Node graph) const {
+    const auto [entry, fresh] = _members.try_emplace(graph.hash_value());
+    for (Node element : fresh ? graph.children() : Node().children()) {
+        if (!isInput(element) && std::string(element.name()) != "output") {
+            entry->second.emplace(attribute(element, "name"), element); // the first of a name counts
+        }
+    }
+    return entry->second;
 }
 
 Node Document::definition(Node node) const {
@@ -333,9 +315,19 @@ void Document::complain(Node element, std::string const& what) const {
 
 /// Takes connections to nothing away.
 void Document::checkConnections(Node element) {
-    for (Node child : element) {
-        checkConnections(child);
-    }
+    struct Walker final : pugi::xml_tree_walker {
+        Document* document;
+        bool for_each(Node& node) override {
+            document->checkConnection(node);
+            return true;
+        }
+    } walker;
+    walker.document = this;
+    checkConnection(element);
+    element.traverse(walker);
+}
+
+void Document::checkConnection(Node element) {
     if (!isInput(element) && std::string(element.name()) != "output") {
         return;
     }

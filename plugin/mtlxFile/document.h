@@ -66,6 +66,8 @@ public:
     void complain(pugi::xml_node element, std::string const& what) const;
 
 private:
+    using Names = std::unordered_map<std::string, pugi::xml_node>;
+
     void load(pugi::xml_node root, std::string const& text, std::string const& path,
               std::string const& folder, std::vector<std::string>& open);
     void include(pugi::xml_node element, std::string const& path, std::string const& folder,
@@ -74,16 +76,21 @@ private:
     std::string space(pugi::xml_node element) const;
     std::vector<pugi::xml_node> members(pugi::xml_node definition, bool inputs) const;
     bool fits(pugi::xml_node definition, pugi::xml_node node) const;
+    /// Of an element and all below it.
     void checkConnections(pugi::xml_node element);
+    void checkConnection(pugi::xml_node element);
+    /// What inputs within a node graph are connected to.
+    Names const& membersOf(pugi::xml_node graph) const;
     void breakCycles(std::vector<pugi::xml_node> const& elements);
     void breakCustomCycles();
 
     Surroundings _surroundings;
     pugi::xml_document _xml;
     std::vector<pugi::xml_node> _elements;
-    std::unordered_map<std::string, pugi::xml_node> _names;
+    Names _names;
     std::unordered_map<std::string, std::vector<pugi::xml_node>> _definitions; // by the node they define
-    std::unordered_map<std::string, pugi::xml_node> _implementations;          // by the definition's name
+    Names _implementations;                                                    // by the definition's name
+    mutable std::unordered_map<size_t, Names> _members; // of node graphs that were asked for
 };
 
 } // namespace hipr::mtlx

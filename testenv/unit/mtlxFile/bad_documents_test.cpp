@@ -1,4 +1,5 @@
 /// What is wrong in a document is told once, and the rest of it opens.
+#include "plugin/mtlxFile/document.h"
 #include "testenv/unit/mtlxFile/documents.h"
 
 #include "pxr/usd/sdf/attributeSpec.h"
@@ -93,6 +94,30 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"GeometryOfLook", R"(<collection name="c" includegeom="/a*"/><look name="l"/>)",
             "names '/a*', which is no path"}),
     [](testing::TestParamInfo<Bad> const& info) { return info.param.name; });
+
+/// Deeper than the stack, and too many to look each up among all others.
+TEST(LongDocuments, OpenInTime) {
+    constexpr int length = 100000;
+    std::string text = "<materialx version=\"1.38\"><nodegraph name=\"g\">";
+    for (int i = 0; i < length; ++i) {
+        text += "<sin name=\"n" + std::to_string(i) +
+                "\" type=\"float\"><input name=\"in\" type=\"float\" nodename=\"n" +
+                std::to_string((i + 1) % length) + "\"/></sin>";
+    }
+    text += "</nodegraph>";
+    for (int i = 0; i < length; ++i) {
+        text += "<a>";
+    }
+    for (int i = 0; i < length; ++i) {
+        text += "</a>";
+    }
+    std::vector<std::string> told;
+    hipr::mtlx::Surroundings surroundings;
+    surroundings.message = [&told](std::string const& message) { told.push_back(message); };
+    const hipr::mtlx::Document document(text + "</materialx>", "a.mtlx", surroundings);
+    EXPECT_EQ(document.elements().size(), 1u);
+    EXPECT_THAT(told, ElementsAre(HasSubstr("has no name"), HasSubstr("closes a cycle")));
+}
 
 class NoDocuments : public BadDocuments {};
 
