@@ -63,11 +63,17 @@ bool plausibleSize(size_t stored, size_t decoded) {
 }
 
 /// Takes the error that OpenImageIO keeps per thread, which it would print at exit otherwise, and the
-/// cache's.
-std::string takeError() {
+/// cache's: one line, without the name that the file has here alone.
+std::string takeError(const OIIO::ustring& name) {
     std::string text = cache().geterror();
     const std::string other = OIIO::geterror();
     if (text.empty()) text = other;
+    text = text.substr(0, text.find('\n'));
+    const std::string quoted = '"' + name.string() + '"';
+    for (size_t at = text.find(quoted); at != text.npos; at = text.find(quoted)) {
+        const bool begins = at == 0; // a sentence
+        text.replace(begins ? 0 : at - 1, quoted.size() + !begins, begins ? "it" : "");
+    }
     return text.empty() ? "not a picture in a known format" : text;
 }
 
@@ -146,7 +152,7 @@ bool ImageFile::readHeader(std::string& error) {
     constexpr int LargestSide = 65536;
     OIIO::ImageSpec spec;
     if (!cache().get_imagespec(_source->name, spec, 0, 0, true)) {
-        error = takeError();
+        error = takeError(_source->name);
         return false;
     }
     if (spec.width <= 0 || spec.height <= 0 || spec.width > LargestSide || spec.height > LargestSide ||
@@ -187,7 +193,7 @@ bool ImageFile::read(size_t level, uint32_t firstRow, uint32_t rows, void* pixel
     if (cache().get_pixels(_source->name, 0, int(level), left, left + int(_header.levels[level].width), top,
                            top + int(rows), 0, 1, 0, _header.channels, type, pixels))
         return true;
-    error = takeError();
+    error = takeError(_source->name);
     return false;
 }
 

@@ -1,9 +1,12 @@
 /// What users may have the delegate do besides rendering.
+#include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -51,6 +54,31 @@ TEST(Commands, clearCachesDeletesKernelsAlone) {
     before ? setenv("XDG_CACHE_HOME", kept.c_str(), 1) : unsetenv("XDG_CACHE_HOME");
     std::filesystem::remove_all(caches);
     EXPECT_TRUE(host.render());
+}
+
+TEST(Commands, reloadTexturesFromAnotherThreadWhileItRenders) {
+    TestHost host({"color"}, 64);
+    addScene(host);
+    ASSERT_TRUE(host.render());
+    const GfVec4f before = host.readColor(0, 0);
+    std::atomic<bool> stop{false};
+    std::thread other([&] {
+        while (!stop.load()) {
+            hdhipr::invokeCommand(host.loop(), TfToken("reloadTextures"), {});
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    });
+    for (int i = 0; i < 20; ++i) {
+        auto& square = host.scene().prim(SdfPath("/square"));
+        square.transform.SetTranslate(GfVec3d(0.001 * i, 0, 0));
+        host.scene().tracker().MarkRprimDirty(SdfPath("/square"), HdChangeTracker::DirtyTransform);
+        host.tick();
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    stop.store(true);
+    other.join();
+    EXPECT_TRUE(host.render());
+    EXPECT_EQ(host.readColor(0, 0), before);
 }
 
 TEST(Commands, thatFailSaySo) {
