@@ -6,6 +6,7 @@
 #include "plugin/record/diagnostics.h"
 #include "plugin/record/failure.h"
 #include "plugin/record/framing.h"
+#include "plugin/record/instancedLights.h"
 #include "plugin/record/materialCycles.h"
 #include "pxr/base/tf/error.h"
 #include "pxr/base/tf/errorMark.h"
@@ -138,6 +139,7 @@ UsdStageRefPtr openStage(const std::string& path, const std::vector<std::string>
                                         : UsdStage::OpenMasked(path, populationMask(mask));
     if (stage) {
         cutMaterialCycles(stage);
+        warnOfInstancedLights(stage);
         return stage;
     }
     std::string why;

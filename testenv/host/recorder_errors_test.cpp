@@ -9,6 +9,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 class RecorderErrors : public RecorderTest {};
 
@@ -137,6 +138,47 @@ TEST_F(RecorderErrors, InterruptedWritesWhatIsThereAndReturns130) {
     EXPECT_EQ(process.finish().code, 130);
     EXPECT_THAT(files(), ElementsAre("a.exr"));
     EXPECT_EQ(ImageFile(file("a.exr")).spec().width, 64);
+}
+
+/// Native instances within each other, and a prototype of a point instancer. Later OpenUSD hands all over.
+TEST_F(RecorderErrors, LightsInsideInstancesAreNamed) {
+    write("lamps.usda", R"(#usda 1.0
+class Xform "Lamp" {
+    def SphereLight "Bulb" {
+    }
+}
+class Xform "Pair" {
+    def Xform "Left" (
+        instanceable = true
+        inherits = </Lamp>
+    ) {
+    }
+}
+def Xform "First" (
+    instanceable = true
+    inherits = </Pair>
+) {
+}
+def Xform "Second" (
+    instanceable = true
+    inherits = </Pair>
+) {
+}
+def PointInstancer "Row" {
+    rel prototypes = </Row/Disk>
+    def DiskLight "Disk" {
+    }
+}
+def RectLight "Alone" {
+}
+)");
+    const Outcome outcome = recordStage(file("lamps.usda"), {"-o", file("a.exr")});
+    EXPECT_EQ(outcome.code, 0);
+#ifdef HIPR_TEST_HYDRA_INSTANCES_LIGHTS
+    EXPECT_THAT(outcome.text, Not(HasSubstr("inside instances")));
+#else
+    EXPECT_THAT(outcome.text, HasSubstr("</First/Left/Bulb> and 1 more inside instances"));
+#endif
 }
 
 } // namespace
