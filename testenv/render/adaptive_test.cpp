@@ -29,13 +29,7 @@ public:
     explicit Penumbra(const Settings& settings) : Stage(settings) {
         addFloor(*this);
         add(sphereMesh(), matte({0.8f, 0.5f, 0.2f}), {placed(scaling(0.5f, 0.5f, 0.5f), -1, -0.3f, 0)});
-        LightDesc light;
-        light.kind = LightKind::Rect;
-        light.transform =
-            glm::rotate(glm::translate(glm::mat4(1), {0, 3, 0}), glm::radians(-90.f), {1, 0, 0});
-        light.width = light.height = 2;
-        light.intensity = 4;
-        lamp = add(light);
+        lamp = add(lampAbove({0, 3, 0}, 2, 4));
         edit.setCamera(lookAt({0, 1, 5}, {0, 0, 0}, 50, double(Width) / Height));
         film(Width, Height, {{AovKind::Color, {}}, {AovKind::SampleCount, {}}, {AovKind::Variance, {}}});
     }
@@ -112,11 +106,7 @@ TEST(Adaptive, ErrorIsWhatWasAskedFor) {
 // HiPR's order does not show in the end, and an edited picture is a fresh one.
 TEST(Adaptive, ModesAndEditsGiveTheSamePicture) {
     Penumbra fresh(settingsOf(Most, 2e-4f, "uniform"));
-    LightDesc light;
-    light.kind = LightKind::Rect;
-    light.transform = glm::rotate(glm::translate(glm::mat4(1), {1, 2, 0}), glm::radians(-90.f), {1, 0, 0});
-    light.width = light.height = 1;
-    light.intensity = 20;
+    const LightDesc light = lampAbove({1, 2, 0}, 1, 20);
     fresh.edit.setLight(fresh.lamp, light);
     fresh.render();
 

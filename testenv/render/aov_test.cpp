@@ -26,9 +26,7 @@ struct TwoQuads {
         right = stage.add(quadMesh(), matte({0.5f, 0.5f, 0.5f}),
                           {placed(100, 0, 0, 1, 1), glm::mat4x3(0.f), placed(2, 0.25f, -2, 4, 5.5f)});
         stage.edit.setCamera(camera);
-        LightDesc dome;
-        dome.kind = LightKind::Dome;
-        stage.add(dome);
+        stage.add(skyLight());
         stage.film(Size, Size,
                    {{AovKind::Color, {}},
                     {AovKind::Albedo, {}},

@@ -30,15 +30,6 @@ public:
         film(Side, Side);
     }
     static constexpr float Size = 0.2f;
-
-private:
-    static Settings boxFiltered(int samples, const std::string& mode) {
-        Settings settings;
-        settings.samples = samples;
-        settings.pixelFilter = "box";
-        settings.mode = mode;
-        return settings;
-    }
 };
 
 CameraDesc camera(Lens lens = {}) {
@@ -235,10 +226,7 @@ TEST(Camera, RaysEndAtTheFarPlaneInTheSky) {
     Settings settings;
     settings.samples = 4;
     Stage stage(settings);
-    LightDesc dome;
-    dome.kind = LightKind::Dome;
-    dome.intensity = 3.f;
-    stage.add(dome);
+    stage.add(skyLight(3.f));
     CameraDesc desc = camera();
     desc.projection = glm::perspective(1.0, 1.0, 0.1, 10.0);
     stage.edit.setCamera(desc);

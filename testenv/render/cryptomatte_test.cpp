@@ -99,12 +99,6 @@ ObjectId addNamed(Stage& stage, const std::string& name, const std::string& asse
     return object;
 }
 
-void addSky(Stage& stage) {
-    LightDesc dome;
-    dome.kind = LightKind::Dome;
-    stage.add(dome);
-}
-
 /// Pixel (0, 0): nothing; (1, 0): half /a, half nothing; (2, 0): /a over a quarter /b; (3, 0): through a pane
 /// of presence 1/2 at /b.
 void addFourPixels(Stage& stage) {
@@ -116,7 +110,7 @@ void addFourPixels(Stage& stage) {
     pane.opacity = constantValue(0.5f);
     pane.opacityMode = OpacityMode::Presence;
     addNamed(stage, "/pane", "", pane, rect(3, 0, 1, 1, 1));
-    addSky(stage);
+    stage.add(skyLight());
     stage.edit.setCamera(above(4));
     stage.film(4, 4, allLayers());
 }
@@ -226,7 +220,7 @@ TEST(Cryptomatte, LeavesOutTheLeast) {
         addNamed(stage, "/o" + std::to_string(i), "", matte({1, 1, 1}), rect(x, 0, widths[i], 1));
         x += widths[i];
     }
-    addSky(stage);
+    stage.add(skyLight());
     stage.edit.setCamera(above(1));
     stage.film(1, 1, allLayers());
     stage.render();

@@ -26,22 +26,6 @@ std::shared_ptr<const TriangleMesh> built(CurvesDesc desc, bool round = true) {
     return mesh;
 }
 
-Settings boxFiltered(int samples) {
-    Settings settings;
-    settings.samples = samples;
-    settings.pixelFilter = "box";
-    settings.filterWidth = 1.f;
-    return settings;
-}
-
-LightDesc dome(float intensity = 1) {
-    LightDesc light;
-    light.name = "/dome";
-    light.kind = LightKind::Dome;
-    light.intensity = intensity;
-    return light;
-}
-
 /// Two straight lines along x, 1 and 0.5 wide, the second one away and made of two segments.
 CurvesDesc twoLines() {
     CurvesDesc desc;
@@ -85,7 +69,7 @@ TEST(RoundCurves, FirstHitsOfStraightLines) {
     Stage stage(boxFiltered(1));
     const glm::mat4x3 place = placed(scaling(1.3f, 1.3f, 1.3f), 0.1f, 0, 0);
     const ObjectId object = stage.add(built(twoLines()), matte(glm::vec3(0.5f)), {place});
-    stage.add(dome());
+    stage.add(skyLight());
     const CameraDesc camera = lookAt({0.3, 0.4, 6}, {0.1, 0, 0}, 30);
     stage.edit.setCamera(camera);
     stage.film(Size, Size,
@@ -164,7 +148,7 @@ TEST(RoundCurves, LookLikeTubesOfTriangles) {
         material.roughness = constantValue(0.3f);
         stage.add(built(desc, round), material);
         stage.add(sphereMesh(), matte(glm::vec3(0.5f)), {scaling(0.78f, 0.78f, 0.78f)}); // the ends differ
-        stage.add(dome(0.5f));
+        stage.add(skyLight(0.5f));
         LightDesc sun;
         sun.name = "/sun";
         sun.kind = LightKind::Distant;
@@ -201,7 +185,7 @@ TEST(RoundCurves, WhiteFurnace) {
                 material.openPbr[OpenPbrInput::SpecularRoughness] = constantValue(0.f);
             }
             stage.add(built(fur(3000)), material, {scaling(scale, scale, scale)});
-            stage.add(dome());
+            stage.add(skyLight());
             CameraDesc camera = lookAt({0, 0, 5 * scale}, {0, 0, 0}, 30);
             camera.projection = glm::perspective(glm::radians(30.0), 1.0, 1.0 * scale, 10.0 * scale);
             stage.edit.setCamera(camera);
@@ -222,7 +206,7 @@ TEST(RoundCurves, PresenceCountsOnce) {
     CurvesDesc desc = twoLines();
     desc.primvars[0].values = {1.f, 0.f};
     stage.add(built(desc), material);
-    stage.add(dome());
+    stage.add(skyLight());
     stage.edit.setCamera(lookAt({0, 0.5, 4}, {0, 0.5, 0}, 4)); // sees nothing but the first
     stage.film(16, 16);
     stage.render();
@@ -248,7 +232,7 @@ TEST(RoundCurves, Deform) {
             one.motion.transforms = {{translation(0, 0, 0)}, {translation(0.5f, 0, 0)}};
             stage.edit.setInstances(object, one);
         }
-        stage.add(dome());
+        stage.add(skyLight());
         CameraDesc camera = lookAt({0, 0, 5}, {0, 0, 0}, 35);
         camera.shutter = {0.0, 0.5};
         stage.edit.setCamera(camera);
@@ -287,13 +271,7 @@ struct Barber : Stage {
                                    {},
                                    {}});
         add(sphereMesh(16), mirror(), {placed(scaling(0.4f, 0.4f, 0.4f), 0, 0.2f, -1.2f)});
-        LightDesc light;
-        light.name = "/light";
-        light.kind = LightKind::Rect;
-        light.transform = glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(0, 3, 0)), glm::radians(-90.),
-                                      glm::dvec3(1, 0, 0));
-        light.intensity = 5;
-        add(light);
+        add(lampAbove({0, 3, 0}, 1, 5));
         edit.setCamera(lookAt({0, 0.6, 4}, {0, -0.2, 0}));
         film(48, 48);
     }

@@ -42,18 +42,9 @@ void build(Stage& stage) {
     lamp.intensity = 20.f;
     lamp.transform = glm::translate(glm::dmat4(1), glm::dvec3(2, 3, 2));
     stage.add(lamp);
-    LightDesc dome;
-    dome.kind = LightKind::Dome;
-    dome.intensity = 0.2f;
-    stage.add(dome);
+    stage.add(skyLight(0.2f));
     stage.edit.setCamera(lookAt({0, 1, 6}, {0, 0, 0}, 45, 80.0 / 60.0));
     stage.film(80, 60);
-}
-
-Settings fewSamples() {
-    Settings settings;
-    settings.samples = 6;
-    return settings;
 }
 
 ColorPicture rendered(Stage& stage) {
@@ -64,7 +55,7 @@ ColorPicture rendered(Stage& stage) {
 
 ColorPicture reference() {
     static const ColorPicture picture = [] {
-        Stage stage(fewSamples());
+        Stage stage(withSamples(6));
         save(rendered(stage), "determinism");
         return stage.color();
     }();
@@ -95,7 +86,7 @@ void expectNearlyTheSame(const ColorPicture& a, const ColorPicture& b) {
 } // namespace
 
 TEST(Determinism, KernelsThatCanMoreMakeTheSamePicture) {
-    Stage stage(fewSamples());
+    Stage stage(withSamples(6));
     build(stage);
     stage.edit.setMaterial(stage.renderer->newId<MaterialId>(), graphOfOpenPbr());
     stage.render();
@@ -103,7 +94,7 @@ TEST(Determinism, KernelsThatCanMoreMakeTheSamePicture) {
 }
 
 TEST(Determinism, WhatASceneHadBeforeDoesNotMatter) {
-    Stage stage(fewSamples());
+    Stage stage(withSamples(6));
     build(stage);
     MaterialDesc glow = graphOfOpenPbr();
     glow.openPbr[OpenPbrInput::EmissionColor] = constantColor(glm::vec3(1.f));
@@ -128,7 +119,7 @@ TEST(Determinism, WhatASceneHadBeforeDoesNotMatter) {
 TEST(Determinism, BatchAndTileSizesDoNotMatter) {
     for (const RendererInternals& internals :
          {RendererInternals{8, 500}, {16, 3000}, {32, 1 << 16}, {64, 1 << 15}, {16, 1 << 16}}) {
-        Stage stage(fewSamples(), internals);
+        Stage stage(withSamples(6), internals);
         EXPECT_TRUE(sameBits(reference(), rendered(stage)))
             << internals.tileSize << " " << internals.batchPaths;
     }
@@ -136,7 +127,7 @@ TEST(Determinism, BatchAndTileSizesDoNotMatter) {
 
 TEST(Determinism, AllTraversalsAgree) {
     for (const char* traversal : {"embree", "bvh", "rayquery"}) {
-        Settings settings = fewSamples();
+        Settings settings = withSamples(6);
         settings.traversal = traversal;
         Stage stage(settings);
         if (!stage.messages().empty()) { // this device cannot run it
@@ -152,24 +143,24 @@ TEST(Determinism, AllTraversalsAgree) {
 TEST(Determinism, MemoryOfItsOwnDoesNotMatter) {
     const ColorPicture expected = reference();
     setenv("HIPR_NO_HOST_MEMORY", "1", 1);
-    Stage stage(fewSamples());
+    Stage stage(withSamples(6));
     unsetenv("HIPR_NO_HOST_MEMORY");
     EXPECT_TRUE(sameBits(expected, rendered(stage)));
 }
 
 TEST(Determinism, MoreSamplesLaterAreTheSameSamples) {
-    Settings settings = fewSamples();
+    Settings settings = withSamples(6);
     settings.samples = 2;
     Stage stage(settings);
     EXPECT_FALSE(sameBits(reference(), rendered(stage)));
-    stage.settings(fewSamples());
+    stage.settings(withSamples(6));
     EXPECT_EQ(stage.renderer->progress().samplesDone, 2u); // nothing was thrown away
     stage.render();
     EXPECT_TRUE(sameBits(reference(), stage.color()));
 }
 
 TEST(Determinism, SeedChangesNoiseOnly) {
-    Settings settings = fewSamples();
+    Settings settings = withSamples(6);
     settings.seed = 1;
     Stage stage(settings);
     EXPECT_FALSE(sameBits(reference(), rendered(stage)));
@@ -177,7 +168,7 @@ TEST(Determinism, SeedChangesNoiseOnly) {
 }
 
 TEST(Determinism, CancelLosesNothing) {
-    Stage stage(fewSamples(), {16, 3000});
+    Stage stage(withSamples(6), {16, 3000});
     build(stage);
     stage.renderer->commit(stage.edit);
     std::atomic<bool> done{false};

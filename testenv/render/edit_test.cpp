@@ -56,14 +56,8 @@ struct Scene {
     }
 };
 
-Settings fewSamples() {
-    Settings settings;
-    settings.samples = 4;
-    return settings;
-}
-
 ColorPicture fresh(const Scene& scene) {
-    Stage stage(fewSamples());
+    Stage stage(withSamples(4));
     scene.fill(stage.edit);
     stage.film(48, 48);
     stage.render();
@@ -172,7 +166,7 @@ TEST(Edit, EditedEqualsFresh) {
     const ColorPicture unedited = fresh(before);
     for (const Expectation& expectation : edits()) {
         SCOPED_TRACE(expectation.name);
-        Stage stage(fewSamples());
+        Stage stage(withSamples(4));
         before.fill(stage.edit);
         stage.film(48, 48);
         stage.render();
@@ -197,13 +191,13 @@ TEST(Edit, EditedEqualsFresh) {
 
 TEST(Edit, SameValuesChangeNothing) {
     const Scene scene;
-    Stage stage(fewSamples());
+    Stage stage(withSamples(4));
     scene.fill(stage.edit);
     stage.film(48, 48);
     stage.render();
     Scene().fill(stage.edit); // equal meshes at other addresses
     EXPECT_TRUE(stage.renderer->commit(stage.edit).empty());
-    stage.settings(fewSamples());
+    stage.settings(withSamples(4));
     stage.film(48, 48);
     EXPECT_TRUE(stage.renderer->progress().converged);
     EXPECT_FALSE(stage.renderer->renderBatch());
@@ -211,7 +205,7 @@ TEST(Edit, SameValuesChangeNothing) {
 
 TEST(Edit, ReportsTheInstanceThatMoved) {
     Scene scene;
-    Stage stage(fewSamples());
+    Stage stage(withSamples(4));
     scene.fill(stage.edit);
     stage.renderer->commit(stage.edit);
     scene.ballPlaces.transforms[1] = translation(0, 2, 0);
@@ -224,24 +218,24 @@ TEST(Edit, ReportsTheInstanceThatMoved) {
 }
 
 TEST(Edit, SettingsThatMatterRestart) {
-    Stage stage(fewSamples());
+    Stage stage(withSamples(4));
     Scene().fill(stage.edit);
     stage.film(48, 48);
     stage.render();
     const ColorPicture before = stage.color();
-    Settings settings = fewSamples();
+    Settings settings = withSamples(4);
     settings.enableSceneMaterials = false;
     stage.settings(settings);
     EXPECT_FALSE(stage.renderer->progress().converged);
     stage.render();
     EXPECT_FALSE(sameBits(before, stage.color()));
-    stage.settings(fewSamples());
+    stage.settings(withSamples(4));
     stage.render();
     EXPECT_TRUE(sameBits(before, stage.color()));
 }
 
 TEST(Edit, InstancesShareTheirGeometry) {
-    Stage stage(fewSamples());
+    Stage stage(withSamples(4));
     const auto bytes = [&] {
         uint64_t geometry = 0, total = 0;
         for (const MemoryReport::Row& row : stage.renderer->memory().rows) {

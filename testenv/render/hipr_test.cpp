@@ -29,10 +29,7 @@ public:
         lamp.transform = glm::translate(glm::dmat4(1), glm::dvec3(1.5, 6, 0.5));
         lampId = stage.add(lamp);
         _lamp = lamp;
-        LightDesc dome;
-        dome.kind = LightKind::Dome;
-        dome.intensity = 0.1f;
-        stage.add(dome);
+        stage.add(skyLight(0.1f));
         stage.edit.setCamera(lookAt({0, 0.3, 5}, {0, -0.1, 0}, 45));
         stage.film(Size, Size,
                    {{AovKind::Color, {}},
@@ -76,17 +73,9 @@ const Edit MovesAbove{"above the picture", [](Scene& s) { s.place(s.above, Scene
                       [](Scene& s) { s.place(s.above, Scene::aboveAt(0.f)); }};
 const Edit DimsTheLamp{"light", [](Scene& s) { s.dim(200.f); }, [](Scene& s) { s.dim(400.f); }};
 
-Settings settingsFor(const char* mode, int samples = 3) {
-    Settings settings;
-    settings.mode = mode;
-    settings.samples = samples;
-    settings.tileSize = "8";
-    return settings;
-}
-
 /// Without scouts: their lattice misses a picture this small.
 Settings withoutScouts() {
-    Settings settings = settingsFor("paper");
+    Settings settings = smallTiles("paper");
     settings.scoutRate = 0.0001f;
     settings.floorShare = 0.f;
     return settings;
@@ -191,7 +180,7 @@ TEST(Hipr, FinishedPicturesAreTheSameInAllModes) {
     for (const char* mode : {"uniform", "delta", "paper"})
         for (const RendererInternals& internals :
              {RendererInternals{8, 500}, {16, 3000}, {32, 1 << 16}, {8, 1 << 14}}) {
-            Stage stage(settingsFor(mode), internals);
+            Stage stage(smallTiles(mode), internals);
             Scene scene(stage);
             stage.render();
             std::vector<ColorPicture> pictures{stage.color()};
@@ -211,7 +200,7 @@ TEST(Hipr, FinishedPicturesAreTheSameInAllModes) {
 
 // An edit that comes while the one before is being looked for, at any stage of that, costs nothing either.
 TEST(Hipr, InterruptedDiscoveryLosesNothing) {
-    Stage stage(settingsFor("paper"), {8, 1000});
+    Stage stage(smallTiles("paper"), {8, 1000});
     Scene scene(stage);
     stage.render();
     const ColorPicture expected = stage.color();
@@ -221,8 +210,8 @@ TEST(Hipr, InterruptedDiscoveryLosesNothing) {
         for (int i = 0; i < batches; ++i)
             stage.renderer->renderBatch();
         MovesInView.undo(scene);
-        if (batches % 3 == 1) stage.settings(settingsFor("delta"));
-        if (batches % 3 == 2) stage.settings(settingsFor("paper"));
+        if (batches % 3 == 1) stage.settings(smallTiles("delta"));
+        if (batches % 3 == 2) stage.settings(smallTiles("paper"));
         stage.renderer->commit(stage.edit);
         if (batches % 5 == 0) {
             stage.render();
@@ -284,17 +273,17 @@ TEST(Hipr, PathsFindMirrorImagesAndShadows) {
 
 TEST(Hipr, ScoutsFindWhatNoPixelSees) {
     for (const Edit& edit : {MovesInMirror, MovesAbove})
-        EXPECT_GT(shareFound(settingsFor("delta"), edit), 0.9) << edit.name;
+        EXPECT_GT(shareFound(smallTiles("delta"), edit), 0.9) << edit.name;
     for (const Edit& edit : {MovesAbove, DimsTheLamp})
-        EXPECT_GT(shareFound(settingsFor("paper"), edit), 0.9) << edit.name;
+        EXPECT_GT(shareFound(smallTiles("paper"), edit), 0.9) << edit.name;
     // Paper mode has scouts to begin with, and few of its paths lead from them to the rest of the mirror.
-    EXPECT_GT(shareFound(settingsFor("paper"), MovesInMirror), 0.4);
+    EXPECT_GT(shareFound(smallTiles("paper"), MovesInMirror), 0.4);
 }
 
 // Where indirect light changes by less than the noise of a sample, the old picture is the better one; where
 // the edit is seen, it shows.
 TEST(Hipr, OldPicturesStayWhereTheyAreBetter) {
-    Stage stage(settingsFor("delta", 32)), onceStage(settingsFor("uniform", 1));
+    Stage stage(smallTiles("delta", 32)), onceStage(smallTiles("uniform", 1));
     Scene scene(stage), onceScene(onceStage);
     stage.render();
     std::vector<int> own(Tiles), kept(Tiles);
@@ -321,7 +310,7 @@ TEST(Hipr, OldPicturesStayWhereTheyAreBetter) {
 
 // The first batches are small, so that the edit shows soon; small batches are no way to render much.
 TEST(Hipr, BatchesAfterALocalEditGrow) {
-    Stage stage(settingsFor("delta", 1));
+    Stage stage(smallTiles("delta", 1));
     Scene scene(stage);
     stage.film(256, 256, {{AovKind::Color, {}}});
     stage.render();
@@ -342,15 +331,15 @@ TEST(Hipr, BatchesAfterALocalEditGrow) {
 }
 
 TEST(Hipr, WeightsAreTheSameInEveryRun) {
-    const std::vector<float> expected = prioritiesAfter(settingsFor("paper"), {Tile, 0});
+    const std::vector<float> expected = prioritiesAfter(smallTiles("paper"), {Tile, 0});
     uint32_t discovered = 0;
     for (float priority : expected)
         discovered += priority > 0.f;
     EXPECT_GT(discovered, 10u);
     EXPECT_LT(discovered, Tiles);
     for (uint32_t batch : {0u, 300u, 3000u, 1u << 16})
-        EXPECT_EQ(prioritiesAfter(settingsFor("paper"), {Tile, batch}), expected) << batch;
-    Settings bvh = settingsFor("paper");
+        EXPECT_EQ(prioritiesAfter(smallTiles("paper"), {Tile, batch}), expected) << batch;
+    Settings bvh = smallTiles("paper");
     bvh.traversal = "bvh"; // runs on the device, several rounds a submission
     EXPECT_EQ(prioritiesAfter(bvh, {Tile, 1000}), expected);
     setenv("HIPR_NO_HOST_MEMORY", "1", 1);

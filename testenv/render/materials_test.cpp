@@ -35,9 +35,7 @@ ColorPicture ball(const MaterialDesc& material, uint32_t samples, double degrees
     settings.rouletteDepth = 64;
     Stage stage(settings);
     stage.add(sphereMesh(64), material);
-    LightDesc sky;
-    sky.kind = LightKind::Dome;
-    stage.add(sky);
+    stage.add(skyLight());
     stage.edit.setCamera(lookAt({0, 0, 4.2}, {0, 0, 0}, degrees));
     stage.film(24, 24);
     stage.render();

@@ -29,15 +29,6 @@ CameraDesc camera(const Shutter& shutter = Half) {
     return desc;
 }
 
-Settings boxFiltered(int samples, const std::string& mode = "delta") {
-    Settings settings;
-    settings.samples = samples;
-    settings.pixelFilter = "box";
-    settings.filterWidth = 1.f;
-    settings.mode = mode;
-    return settings;
-}
-
 InstancesDesc moving(const glm::mat4x3& from, const glm::mat4x3& to, float close = 0.5f) {
     InstancesDesc desc;
     desc.transforms = {from};
@@ -239,13 +230,7 @@ struct Busy : Stage {
         for (glm::vec3& p : mesh->motion[1].positions)
             if (p.x > 0) p.x = wide;
         quad = add(mesh, matte({0.8f, 0.3f, 0.2f}));
-        LightDesc light;
-        light.name = "/light";
-        light.kind = LightKind::Rect;
-        light.transform = glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(0, 3, 0)), glm::radians(-90.),
-                                      glm::dvec3(1, 0, 0));
-        light.intensity = 5;
-        add(light);
+        add(lampAbove({0, 3, 0}, 1, 5));
         film(48, 48);
         move(goal);
         view(shutter);

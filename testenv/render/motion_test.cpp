@@ -11,25 +11,11 @@ namespace {
 
 constexpr uint32_t Size = 96, Tile = 8, Columns = Size / Tile, Tiles = Columns * Columns;
 
-Settings settingsFor(const char* mode, int samples = 3) {
-    Settings settings;
-    settings.mode = mode;
-    settings.samples = samples;
-    settings.tileSize = "8";
-    return settings;
-}
-
 CameraDesc orthographic(double x, double y) {
     return {glm::lookAt(glm::dvec3(x, y, 5), glm::dvec3(x, y, 0), glm::dvec3(0, 1, 0)),
             glm::ortho(-2.0, 2.0, -2.0, 2.0, 0.1, 100.0)};
 }
 constexpr double OrthographicPixel = 4.0 / Size;
-
-void addDome(Stage& stage) {
-    LightDesc dome;
-    dome.kind = LightKind::Dome;
-    stage.add(dome);
-}
 
 /// A wall of quads of all colours.
 void addWall(Stage& stage) {
@@ -46,7 +32,7 @@ public:
         addFloor(stage);
         mirrorId = stage.add(quadMesh(), mirror(), {placed(scaling(2, 2, 1), 1.2f, 0, -2.f)});
         _ball = stage.add(sphereMesh(12), matte({0.8f, 0.2f, 0.1f}), {ballAt(0)});
-        addDome(stage);
+        stage.add(skyLight());
         _lamp.kind = LightKind::Sphere;
         _lamp.radius = 0.2f;
         _lamp.transform = glm::translate(glm::dmat4(1), glm::dvec3(1.5, 3, 1.5));
@@ -114,9 +100,9 @@ std::vector<std::function<void(Room&)>> moves() {
 } // namespace
 
 TEST(CameraMotion, APanShowsThePictureShiftedAtOnce) {
-    Stage stage(settingsFor("delta", 16));
+    Stage stage(smallTiles("delta", 16));
     addWall(stage);
-    addDome(stage);
+    stage.add(skyLight());
     stage.edit.setCamera(orthographic(0, 0));
     stage.film(Size, Size);
     stage.render();
@@ -134,7 +120,7 @@ TEST(CameraMotion, APanShowsThePictureShiftedAtOnce) {
 }
 
 TEST(CameraMotion, UniformModeKeepsThePictureWhereItWas) {
-    Stage stage(settingsFor("uniform"));
+    Stage stage(smallTiles("uniform"));
     Room room(stage);
     stage.render();
     const ColorPicture before = stage.color();
@@ -148,18 +134,18 @@ TEST(CameraMotion, UniformModeKeepsThePictureWhereItWas) {
             if (row.kind == std::string("Film")) film += row.bytes;
         return film;
     };
-    Stage other(settingsFor("delta"));
+    Stage other(smallTiles("delta"));
     Room same(other);
     other.render();
     EXPECT_GT(bytes(other), bytes(stage) + Size * Size * 2 * sizeof(gpu::SeenPoint));
 }
 
 TEST(CameraMotion, WhatComesIntoSightIsRefreshedFirst) {
-    Stage stage(settingsFor("delta", 8), {Tile, 512});
+    Stage stage(smallTiles("delta", 8), {Tile, 512});
     addWall(stage);
     const ObjectId near =
         stage.add(quadMesh(), matte(glm::vec3(0.9f)), {placed(scaling(0.8f, 0.8f, 1), 0, 0, 2.5f)});
-    addDome(stage);
+    stage.add(skyLight());
     stage.edit.setCamera(lookAt({0, 0, 5}, {0, 0, 0}, 45));
     stage.film(
         Size, Size,
@@ -197,7 +183,7 @@ TEST(CameraMotion, WhatComesIntoSightIsRefreshedFirst) {
 }
 
 TEST(CameraMotion, MirrorsAreRefreshedBeforeMatteSurfaces) {
-    Stage stage(settingsFor("delta", 8), {Tile, 512});
+    Stage stage(smallTiles("delta", 8), {Tile, 512});
     Room room(stage);
     stage.render();
     room.view(0.004); // less than a pixel
@@ -226,9 +212,9 @@ TEST(CameraMotion, MirrorsAreRefreshedBeforeMatteSurfaces) {
 TEST(CameraMotion, ACarriedPictureStaysUntilTheNewOneIsBetter) {
     double errors[2];
     for (int mode = 0; mode < 2; ++mode) {
-        Stage stage(settingsFor(mode ? "delta" : "uniform", 32), {Tile, 3000});
+        Stage stage(smallTiles(mode ? "delta" : "uniform", 32), {Tile, 3000});
         addWall(stage);
-        addDome(stage);
+        stage.add(skyLight());
         stage.edit.setCamera(lookAt({0, 0, 5}, {0, 0, 0}, 45));
         stage.film(Size, Size);
         stage.render();
@@ -249,7 +235,7 @@ TEST(CameraMotion, LeavesNoTraceInTheFinishedPicture) {
     for (const char* mode : {"uniform", "delta", "paper"})
         for (const RendererInternals& internals : {RendererInternals{8, 1000}, {16, 3000}, {32, 1 << 16}})
             for (int between : {0, 2}) { // batches after each move but every third
-                Stage stage(settingsFor(mode), internals);
+                Stage stage(smallTiles(mode), internals);
                 Room room(stage);
                 stage.render();
                 std::vector<ColorPicture> pictures;
@@ -272,7 +258,7 @@ TEST(CameraMotion, LeavesNoTraceInTheFinishedPicture) {
 
 TEST(CameraMotion, WhatIsOnDisplayIsTheSameWhateverTheTraversalAndMemory) {
     const auto shown = [](const char* traversal) {
-        Settings settings = settingsFor("delta", 4);
+        Settings settings = smallTiles("delta", 4);
         settings.traversal = traversal;
         Stage stage(settings);
         Room room(stage);
@@ -291,7 +277,7 @@ TEST(CameraMotion, WhatIsOnDisplayIsTheSameWhateverTheTraversalAndMemory) {
 }
 
 TEST(CameraMotion, ADragFollowsTheCameraWithoutANewSample) {
-    Stage stage(settingsFor("delta", 64));
+    Stage stage(smallTiles("delta", 64));
     Room room(stage);
     stage.render();
     const ColorPicture first = stage.color();

@@ -138,9 +138,7 @@ TEST(Nesting, WhiteFurnace) {
         stage.add(sphereMesh(64), glass(1.5f, 2, 0.4f));
         stage.add(sphereMesh(64), glass(inner, priority, 0.4f),
                   {placed(scaling(0.6f, 0.6f, 0.6f), 0.5f, 0, 0)});
-        LightDesc sky;
-        sky.kind = LightKind::Dome;
-        stage.add(sky);
+        stage.add(skyLight());
         stage.edit.setCamera(lookAt({0, 0, 4.2}, {0, 0, 0}, 30));
         stage.film(24, 24);
         stage.render();
@@ -153,9 +151,7 @@ TEST(Nesting, EditedIsAsFresh) {
     const auto picture = [](Stage& stage, int before, int after) {
         const ObjectId ball = stage.add(sphereMesh(32), glass(1.5f, before));
         stage.add(sphereMesh(32), glass(1.33f, 0), {placed(scaling(0.7f, 0.7f, 0.7f), 0.6f, 0, 0)});
-        LightDesc sky;
-        sky.kind = LightKind::Dome;
-        stage.add(sky);
+        stage.add(skyLight());
         addFloor(stage);
         stage.edit.setCamera(lookAt({0, 0.5, 4.2}, {0, 0, 0}, 30));
         stage.film(24, 24);

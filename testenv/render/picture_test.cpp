@@ -9,14 +9,6 @@ using namespace hipr::test;
 
 namespace {
 
-LightDesc dome(float intensity = 1.f) {
-    LightDesc light;
-    light.name = "/dome";
-    light.kind = LightKind::Dome;
-    light.intensity = intensity;
-    return light;
-}
-
 /// Straight along -z; a surface that faces it shows its own colour.
 LightDesc sun() {
     LightDesc light;
@@ -40,13 +32,7 @@ TEST(Picture, QuadAndSphereUnderARectLight) {
     plastic.diffuseColor = constantColor({0.8f, 0.2f, 0.1f});
     plastic.roughness = constantValue(0.2f);
     stage.add(sphereMesh(), plastic);
-    LightDesc light;
-    light.kind = LightKind::Rect;
-    light.transform = glm::translate(glm::dmat4(1), glm::dvec3(2, 4, 2)) *
-                      glm::rotate(glm::dmat4(1), -glm::half_pi<double>(), glm::dvec3(1, 0, 0));
-    light.intensity = 10.f;
-    light.width = light.height = 2.f;
-    stage.add(light);
+    stage.add(lampAbove({2, 4, 2}, 2, 10));
     stage.edit.setCamera(lookAt({0, 1.5, 6}, {0, 0, 0}));
     stage.film(256, 256);
     stage.render();
@@ -74,7 +60,7 @@ TEST(Picture, WhiteBoxFurnace) {
                glm::mat4x3({0, 0, -1}, {0, 1, 0}, {1, 0, 0}, {-h, 0, 0}),
                glm::mat4x3({1, 0, 0}, {0, 0, 1}, {0, -1, 0}, {0, h, 0}), // top
                glm::mat4x3({1, 0, 0}, {0, 0, -1}, {0, 1, 0}, {0, -h, 0})});
-    stage.add(dome());
+    stage.add(skyLight());
     stage.edit.setCamera(lookAt({0.3, 0.2, 2.2}, {0, 0, -h}, 30));
     stage.film(32, 32);
     stage.render();
@@ -96,7 +82,7 @@ TEST(Picture, WhiteFurnace) {
             material.specularColor = constantColor(glm::vec3(0.3f)), material.roughness = constantValue(0.4f);
         if (kind == 2) material.metallic = constantValue(1.f), material.useSpecularWorkflow = false;
         stage.add(sphereMesh(), material);
-        stage.add(dome());
+        stage.add(skyLight());
         stage.edit.setCamera(lookAt({0, 0, 4}, {0, 0, 0}));
         stage.film(32, 32);
         stage.render();
@@ -119,7 +105,7 @@ TEST(Picture, RouletteAndDepthKeepTheMean) {
         glow.emissiveColor = constantColor(glm::vec3(1.f));
         stage.add(sphereMesh(), glow);
         stage.edit.setCamera(lookAt({0, 0, 0.2}, {0, 0, -1}));
-        stage.add(dome(0.f));
+        stage.add(skyLight(0.f));
         stage.film(16, 16);
         stage.render();
         means[i] = mean(stage.color());
@@ -135,7 +121,7 @@ TEST(Picture, DirectLightOnlyAtDepthOne) {
     settings.maxDepth = 1;
     Stage stage(settings);
     stage.add(quadMesh(), matte(glm::vec3(0.25f)), {scaling(10, 10, 1)});
-    stage.add(dome(2.f));
+    stage.add(skyLight(2.f));
     stage.edit.setCamera(lookAt({0, 0, 4}, {0, 0, 0}));
     stage.film(16, 16);
     stage.render();
@@ -174,7 +160,7 @@ TEST(Picture, LightsEqualGlowingShapes) {
                 else
                     stage.add(sphereMesh(96), glow,
                               {glm::mat4x3(above * glm::scale(glm::dmat4(1), glm::dvec3(0.7)))});
-                if (glowing) stage.add(dome(0.f));
+                if (glowing) stage.add(skyLight(0.f));
                 // From the side, below the light: only the lit plane is seen.
                 stage.edit.setCamera(lookAt({-4, 0, 1.2}, {0.2, 0, 0}, 15));
                 stage.film(32, 32);
@@ -231,7 +217,7 @@ TEST(Picture, ManySamplesSumExactly) {
     Settings settings;
     settings.samples = 300000;
     Stage stage(settings);
-    stage.add(dome(0.1f));
+    stage.add(skyLight(0.1f));
     stage.edit.setCamera(lookAt({0, 0, 4}, {0, 0, 0}));
     stage.film(2, 2);
     stage.render();
@@ -250,7 +236,7 @@ TEST(Picture, CameraLightWhenThereIsNone) {
     ASSERT_EQ(stage.messages().size(), 1u);
     EXPECT_EQ(stage.messages()[0].severity, Severity::Info);
 
-    LightDesc light = dome(0.5f); // switched off, it leaves the scene dark on purpose
+    LightDesc light = skyLight(0.5f); // switched off, it leaves the scene dark on purpose
     light.visible = false;
     const LightId id = stage.add(light);
     stage.render();
@@ -279,7 +265,7 @@ TEST(Picture, FireflyClampOnlyTouchesIndirectLight) {
                       m[3].z = -1.f;
                       return m;
                   }()});
-        stage.add(dome());
+        stage.add(skyLight());
         stage.edit.setCamera(lookAt({0, 0, 4}, {0, 0, 0}));
         stage.film(16, 16);
         stage.render();

@@ -45,9 +45,7 @@ TEST(Robustness, BrokenTransformsAndMissingGeometry) {
     Stage stage;
     stage.film(8, 8, {{AovKind::PrimId, {}}});
     stage.edit.setCamera(lookAt({0, 0, 4}, {0, 0, 0}));
-    LightDesc dome;
-    dome.kind = LightKind::Dome;
-    stage.add(dome);
+    stage.add(skyLight());
     glm::mat4x3 nan(1.f);
     nan[1].y = std::nanf("");
     const ObjectId broken = stage.add(quadMesh(), matte(glm::vec3(0.5f)),
@@ -72,9 +70,7 @@ TEST(Robustness, NotANumberIsDropped) {
     Stage stage;
     stage.film(8, 8);
     stage.edit.setCamera(lookAt({0, 0, 4}, {0, 0, 0}));
-    LightDesc dome;
-    dome.kind = LightKind::Dome;
-    stage.add(dome);
+    stage.add(skyLight());
     MaterialDesc glow;
     glow.emissiveColor.source = MaterialInput::Source::Primvar;
     glow.emissiveColor.primvar = "glow";

@@ -77,6 +77,46 @@ MaterialDesc matte(glm::vec3 color) {
     return desc;
 }
 
+LightDesc skyLight(float intensity) {
+    LightDesc light;
+    light.name = "/sky";
+    light.kind = LightKind::Dome;
+    light.intensity = intensity;
+    return light;
+}
+
+LightDesc lampAbove(glm::dvec3 at, float size, float intensity) {
+    LightDesc light;
+    light.name = "/lamp";
+    light.kind = LightKind::Rect;
+    light.transform =
+        glm::rotate(glm::translate(glm::dmat4(1), at), glm::radians(-90.0), glm::dvec3(1, 0, 0));
+    light.width = light.height = size;
+    light.intensity = intensity;
+    return light;
+}
+
+Settings withSamples(int samples) {
+    Settings settings;
+    settings.samples = samples;
+    return settings;
+}
+
+Settings boxFiltered(int samples, const std::string& mode) {
+    Settings settings = withSamples(samples);
+    settings.pixelFilter = "box";
+    settings.filterWidth = 1.f;
+    settings.mode = mode;
+    return settings;
+}
+
+Settings smallTiles(const std::string& mode, int samples) {
+    Settings settings = withSamples(samples);
+    settings.mode = mode;
+    settings.tileSize = "8";
+    return settings;
+}
+
 CameraDesc lookAt(glm::dvec3 eye, glm::dvec3 target, double verticalDegrees, double aspect) {
     return {glm::lookAt(eye, target, glm::dvec3(0, 1, 0)),
             glm::perspective(glm::radians(verticalDegrees), aspect, 0.1, 1000.0)};

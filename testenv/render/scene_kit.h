@@ -37,6 +37,18 @@ MaterialDesc matte(glm::vec3 color);
 /// Reflects 90 % of the light, perfectly smooth.
 MaterialDesc mirror();
 
+/// A dome, equally bright all around.
+LightDesc skyLight(float intensity = 1.f);
+/// A square light that shines straight down.
+LightDesc lampAbove(glm::dvec3 at, float size, float intensity);
+
+/// The default ones, but for the number of samples.
+Settings withSamples(int samples);
+/// Each pixel has what lies in it and nothing else.
+Settings boxFiltered(int samples, const std::string& mode = "delta");
+/// Tiles of 8 pixels, of which even small pictures have many.
+Settings smallTiles(const std::string& mode, int samples = 3);
+
 /// Seen from `eye` towards `target`, y up.
 CameraDesc lookAt(glm::dvec3 eye, glm::dvec3 target, double verticalDegrees = 40, double aspect = 1);
 glm::mat4x3 translation(float x, float y, float z);

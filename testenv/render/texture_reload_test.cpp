@@ -42,12 +42,6 @@ bool equal(const ColorPicture& a, const ColorPicture& b) {
            std::memcmp(a.values.data(), b.values.data(), a.values.size() * sizeof(glm::vec4)) == 0;
 }
 
-Settings fewSamples() {
-    Settings settings;
-    settings.samples = 4;
-    return settings;
-}
-
 } // namespace
 
 TEST(TextureReload, GivesThePictureOfAFreshStart) {
@@ -56,7 +50,7 @@ TEST(TextureReload, GivesThePictureOfAFreshStart) {
     const PictureFile paint("paint", 8, rising), glow("glow", 8, rising), height("height", 8, rising),
         sky("sky", 8, rising);
     const PictureFile* const files[] = {&paint, &glow, &height, &sky};
-    Stage edited(fewSamples());
+    Stage edited(withSamples(4));
     fill(edited, paint, glow, height, sky);
     edited.render();
     for (const PictureFile* file : files) {
@@ -64,7 +58,7 @@ TEST(TextureReload, GivesThePictureOfAFreshStart) {
         file->write(6, falling);
         EXPECT_FALSE(edited.renderer->reloadTextures().empty());
         edited.render();
-        Stage fresh(fewSamples());
+        Stage fresh(withSamples(4));
         fill(fresh, paint, glow, height, sky);
         fresh.render();
         EXPECT_FALSE(equal(before, edited.color())) << file->path();
@@ -73,7 +67,7 @@ TEST(TextureReload, GivesThePictureOfAFreshStart) {
 }
 
 TEST(TextureReload, ChangesNothingWithoutTextures) {
-    Stage stage(fewSamples());
+    Stage stage(withSamples(4));
     stage.add(quadMesh(), matte(glm::vec3(0.5f)));
     stage.edit.setCamera(lookAt({0, 0, 2}, {0, 0, 0}));
     stage.film(16, 16);
