@@ -37,11 +37,7 @@ public:
             return;
         }
         if (!_geometries[slot]) _geometries[slot] = std::make_unique<BvhGeometry>();
-        if (view->segments && !_segments) { // others need no code for them
-            _segments = true;
-            _nearest = nearestKernel(_device, gpu::SCENE_HAS_SEGMENTS);
-            _occluded = occludedKernel(_device, gpu::SCENE_HAS_SEGMENTS);
-        }
+        if (view->segments) need(gpu::SCENE_HAS_SEGMENTS);
         _geometries[slot]->setView(*view);
     }
 
@@ -72,6 +68,14 @@ public:
     VkDeviceAddress sceneAddress() const override { return _instances.address(); }
 
 private:
+    /// Has kernels know of a feature, which others need no code for.
+    void need(uint32_t feature) {
+        if (_features & feature) return;
+        _features |= feature;
+        _nearest = nearestKernel(_device, _features);
+        _occluded = occludedKernel(_device, _features);
+    }
+
     const BvhGeometry* geometry(uint32_t slot) const {
         return slot < _geometries.size() ? _geometries[slot].get() : nullptr;
     }
@@ -81,6 +85,7 @@ private:
             const BvhGeometry* g = geometry(slot);
             return g ? g->shape() : SlotShape{};
         });
+        if (table.culls) need(gpu::SCENE_HAS_CULLING);
         std::vector<Bounds> boxes;
         std::vector<uint32_t> instances; // with a mask
         for (uint32_t i = 0; i < table.records.size(); ++i) {
@@ -111,7 +116,7 @@ private:
     VkDeviceAddress _keysAddress = 0;
     DeviceInstances _instances;
     bool _instancesChanged = true;
-    bool _segments = false; ///< the kernels know of them
+    uint32_t _features = 0; ///< SCENE_HAS_* that the kernels know of
 };
 
 } // namespace

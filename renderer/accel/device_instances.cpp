@@ -13,8 +13,8 @@ void DeviceInstances::send(Device& device, const InstanceTable& table, const std
     };
     put(_nodes, nodes.data(), nodes.size() * sizeof(gpu::BvhNode));
     put(_instances, table.records.data(), table.records.size() * sizeof(gpu::BvhInstance));
-    const gpu::BvhScene scene{nodes.empty() ? 0 : _nodes.address(), _instances.address(), keys, table.extent,
-                              uint32_t(table.records.size())};
+    const gpu::BvhScene scene{nodes.empty() ? 0 : _nodes.address(), _instances.address(),  keys, table.extent,
+                              uint32_t(table.records.size()),       table.culls ? 1u : 0u, 0};
     put(_scene, &scene, sizeof(scene));
 }
 

@@ -50,7 +50,8 @@ struct Query {
     bool onEdge = false; ///< of `best`
     float turnedDown =
         std::numeric_limits<float>::infinity(); ///< nearest proposal the canonical test did not confirm
-    bool collecting = true;                     ///< proposals are tested at the end, not on the way
+    bool passedOne = false; ///< a proposal was on a side that the ray passes: it may hide others
+    bool collecting = true; ///< proposals are tested at the end, not on the way
     Proposals proposals;
 
     // The instance being traversed, and the ray in its space.
@@ -63,6 +64,7 @@ struct Query {
     gpu::SegmentRay segmentRay;
     gpu::BoxRay box;
     float entry, exit;
+    uint32_t passed; ///< sides of faces, see gpu::passedSides()
 
     Query(const EmbreeScene& s, const gpu::Ray& r, uint32_t m)
         : scene(&s), ray(r), mask(m),
@@ -79,7 +81,9 @@ struct Query {
     /// Start of Embree's interval; it does not take negative ones.
     float start() const { return std::max(0.0f, ray.tMin - slack); }
     float loosened(float t) const { return t * LOOSENED + slack; }
-    bool doubtful() const { return onEdge || turnedDown <= loosened(best.t) || proposals.overflow; }
+    bool doubtful() const {
+        return onEdge || passedOne || turnedDown <= loosened(best.t) || proposals.overflow;
+    }
 };
 
 /// Moves to an instance; false when the ray does not see it.
@@ -105,6 +109,7 @@ void Query::prepare() {
     else
         triangleRay = gpu::triangleRay(origin, direction);
     box = gpu::boxRay(origin, direction, record.extent);
+    passed = gpu::passedSides(record.culled, ray.flags);
 }
 
 /// A triangle or segment at the time of the ray.
@@ -125,9 +130,14 @@ bool Query::consider(uint32_t primitive, float proposed) {
     const GeometryView& g = scene->geometryOf(instance).view;
     const auto [a, b, c] = cornersNow(g, primitive);
     float t, u, v;
+    bool front = true;
     const bool met = g.segments
                          ? gpu::canonicalSegmentHit(segmentRay, box, a, b, c.x, c.y, entry, exit, t, u, v)
-                         : gpu::canonicalHit(triangleRay, box, a, b, c, entry, exit, t, u, v);
+                         : gpu::canonicalHit(triangleRay, box, a, b, c, entry, exit, t, u, v, front);
+    if (met && gpu::passesSide(passed, front)) {
+        passedOne = true;
+        return false;
+    }
     if (!met) {
         turnedDown = std::min(turnedDown, proposed);
         return false;

@@ -103,6 +103,8 @@ InstanceTable makeInstanceTable(const InstanceView& view,
         record.geometryKeys = shape.keys;
         record.triangleCount = shape.triangleCount;
         record.segments = shape.segments ? 1 : 0;
+        record.culled = instance.flags & gpu::INSTANCE_CULLS;
+        table.culls |= record.culled != 0;
         forPlaces(instance, view.keys, [&](const Placement& place, const Placement&, double) {
             const WorldBox w = worldBox(place, b);
             const glm::dvec3 reach = glm::abs(w.centre) + w.half;

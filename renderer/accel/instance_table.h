@@ -20,6 +20,7 @@ struct InstanceTable {
         records;         ///< one per instance, in order; `mask` is 0 for instances of nothing
     Bounds bounds;       ///< of all records with a mask
     float extent = 0.0f; ///< largest |coordinate| of `bounds`
+    bool culls = false;  ///< some instance has INSTANCE_CULL_*
 };
 
 /// What the table needs of a geometry slot.

@@ -30,6 +30,7 @@ VkAccelerationStructureInstanceKHR deviceInstance(const gpu::InstanceRecord& rec
             out.transform.matrix[row][column] = record.objectToWorld[column][row];
     out.mask = box.mask;
     out.flags = VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR;
+    if (!box.culled) out.flags |= VK_GEOMETRY_INSTANCE_FORCE_OPAQUE_BIT_KHR;
     out.accelerationStructureReference = box.mask ? structure : 0; // 0: inactive
     return out;
 }

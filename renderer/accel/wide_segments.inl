@@ -60,6 +60,7 @@ template <bool ANY> HIPR_HOT bool testSegments(Walk& w, const SegmentLeafRay& r,
 template <bool ANY>
 __attribute__((noinline)) bool walkSegments(Walk& w, uint32_t index, float entry, float exit) {
     const gpu::BvhInstance& record = w.scene.instances[index];
+    if (gpu::passesSide(gpu::passedSides(record.culled, w.ray.flags), true)) return false;
     const glm::mat4x3 toObject = worldToObject(record, w.scene.keys, w.ray.time);
     const glm::vec3 origin = gpu::mapPoint(toObject, w.ray.origin);
     const glm::vec3 direction = gpu::mapDirection(toObject, w.ray.direction);

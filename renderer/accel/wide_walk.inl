@@ -200,6 +200,7 @@ struct LeafRay {
     F4 origin[3], shear[3];
     F4 inverse[3], biasLo[3], biasHi[3];
     F4 entry, exit; ///< of the instance's world box
+    float passed;   ///< sign of what a triangle's edge functions add up to on the side that the ray passes
     uint32_t instance;
     uint32_t axis[3];
 };
@@ -222,8 +223,10 @@ HIPR_HOT void setLeafRay(LeafRay& out, const gpu::TriangleRay& r, const gpu::Box
     out.instance = instance;
 }
 
-/// Tests the triangles of a leaf as gpu::canonicalHit does. True when any hit will do and there is one.
-template <bool ANY> HIPR_HOT bool testLeaf(Walk& w, const LeafRay& r, const WideLeaf& leaf) {
+/// Tests the triangles of a leaf as gpu::canonicalHit does; those that CULLS are passed from LeafRay::passed.
+/// True when any hit will do and there is one.
+template <bool ANY, bool CULLS = false>
+HIPR_HOT bool testLeaf(Walk& w, const LeafRay& r, const WideLeaf& leaf) {
     const auto row = [&](int corner, int axis) -> const F4& {
         return reinterpret_cast<const F4*>(leaf.corner[corner])[r.axis[axis]];
     };
@@ -252,8 +255,8 @@ template <bool ANY> HIPR_HOT bool testLeaf(Walk& w, const LeafRay& r, const Wide
         exit = least(exit, most(p0, p1));
     }
     const F4 t = least(most((depth * scale) * r.shear[2], entry), exit);
-    uint32_t hit =
-        bits(inside & (sum != zero) & (entry <= exit) & (t > all4(w.ray.tMin)) & (t <= all4(w.best.t)));
+    const I4 counts = CULLS ? sum * all4(r.passed) < zero : sum != zero;
+    uint32_t hit = bits(inside & counts & (entry <= exit) & (t > all4(w.ray.tMin)) & (t <= all4(w.best.t)));
     if (ANY && hit) w.best.instance = r.instance;
     if (ANY) return hit != 0;
     for (; hit; hit &= hit - 1) {
@@ -308,14 +311,22 @@ HIPR_HOT void walkLeaves(const Walk& w, const gpu::BvhInstance& record, const No
     });
 }
 
-/// Of an instance that moves or deforms while the shutter is open. True when any hit will do and there is
-/// one.
+/// Of an instance that moves or deforms while the shutter is open, or that the ray passes on one side. True
+/// when any hit will do and there is one.
 template <bool ANY>
-__attribute__((noinline)) bool walkMoving(Walk& w, uint32_t index, float entry, float exit) {
+__attribute__((noinline)) bool walkSpecial(Walk& w, uint32_t index, float entry, float exit) {
     const gpu::BvhInstance& record = w.scene.instances[index];
     InstanceRay ray;
     setInstanceRay(ray, w, index, worldToObject(record, w.scene.keys, w.ray.time), entry, exit);
-    walkLeaves(w, record, ray.node, [&](const WideLeaf& leaf) { return testLeaf<ANY>(w, ray.leaf, leaf); });
+    if (const uint32_t passed = gpu::passedSides(record.culled, w.ray.flags)) {
+        const bool frontAdds = ray.leaf.shear[2][0] > 0.0f; // as gpu::intersectTriangle has it
+        ray.leaf.passed = frontAdds == (passed == gpu::INSTANCE_CULL_FRONT) ? 1.0f : -1.0f;
+        walkLeaves(w, record, ray.node,
+                   [&](const WideLeaf& leaf) { return testLeaf<ANY, true>(w, ray.leaf, leaf); });
+    } else {
+        walkLeaves(w, record, ray.node,
+                   [&](const WideLeaf& leaf) { return testLeaf<ANY>(w, ray.leaf, leaf); });
+    }
     return ANY && w.best.instance != gpu::NO_INDEX;
 }
 
@@ -328,9 +339,9 @@ template <bool ANY> HIPR_HOT bool walkInstance(Walk& w, const gpu::BoxRay& world
     float entry, exit;
     gpu::boxInterval(worldBox, record.lo, record.hi, entry, exit);
     if (!(std::max(entry, w.ray.tMin) <= std::min(exit, w.best.t))) return false;
-    if (record.keyCount + record.geometryKeys + record.segments > 1)
+    if (record.keyCount + record.geometryKeys + record.segments + record.culled > 1)
         return record.segments ? walkSegments<ANY>(w, index, entry, exit)
-                               : walkMoving<ANY>(w, index, entry, exit);
+                               : walkSpecial<ANY>(w, index, entry, exit);
     InstanceRay ray;
     setInstanceRay(ray, w, index, record.worldToObject, entry, exit);
     const auto* tree = reinterpret_cast<const WideUnit*>(record.nodes);

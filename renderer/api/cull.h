@@ -15,6 +15,7 @@ enum class CullStyle : uint32_t {
     Front,
     BackUnlessDoubleSided,
     FrontUnlessDoubleSided,
+    BackAndForLight, ///< as Back, and light passes back faces too: for faces that lie back to back
 };
 
 } // namespace hipr

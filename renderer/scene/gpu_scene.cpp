@@ -249,7 +249,6 @@ uint32_t GpuScene::shadingFeatures() const {
     }
     if (shutter().blurs() && (_geometries.anyMotion() || _objects.anyMotion()))
         features |= gpu::SCENE_HAS_MOTION;
-    if (_objects.anyCulling()) features |= gpu::SCENE_HAS_CULLING;
     if (_geometries.anySegments()) features |= gpu::SCENE_HAS_SEGMENTS;
     return features;
 }

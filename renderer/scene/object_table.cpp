@@ -68,12 +68,6 @@ void ObjectTable::setObject(ObjectId id, const ObjectDesc& desc, ChangedSet& cha
     note(changed, id, entry, change);
 }
 
-bool ObjectTable::anyCulling() const {
-    return std::any_of(_entries.begin(), _entries.end(), [&](const auto& e) {
-        return e.second.desc && cullFlags(styleOf(*e.second.desc), false) != 0;
-    });
-}
-
 void ObjectTable::setInstances(ObjectId id, const InstancesDesc& desc, ChangedSet& changed) {
     static const InstancesDesc once{{glm::mat4x3(1.f)}, {}, {}, {}, {}};
     Entry& entry = _entries[id];
@@ -148,42 +142,6 @@ void ObjectTable::findUsable(Entry& entry) {
             " instances have a transform that is not finite or has no volume; they are not rendered");
 }
 
-void ObjectTable::uploadPrimvars(Entry& entry) {
-    entry.primvars = Buffer();
-    entry.primvarCount = 0;
-    if (!entry.instances || entry.instances->primvars.empty() || entry.usable.empty()) return;
-
-    BufferPack pack;
-    std::vector<const Primvar*> used;
-    std::vector<uint64_t> offsets;
-    for (const Primvar& primvar : entry.instances->primvars) {
-        const bool complete = primvar.components >= 1 && primvar.components <= 4 &&
-                              std::all_of(entry.usable.begin(), entry.usable.end(),
-                                          [&](uint32_t i) { return instanceValue(primvar, i) >= 0; });
-        if (!complete) {
-            _device.messages()(Severity::Warning, entry.desc->name,
-                               "instance primvar '" + primvar.name +
-                                   "' has no value for some instances; ignored");
-            continue;
-        }
-        used.push_back(&primvar);
-        offsets.push_back(pack.add(primvar.values));
-    }
-    const uint64_t table = pack.reserve(used.size() * entry.usable.size() * sizeof(gpu::PrimvarRecord));
-    entry.primvars = _device.createBuffer(pack.bytes(), MemoryUse::Device, "Instance primvars");
-    std::vector<gpu::PrimvarRecord> records;
-    for (uint32_t instance : entry.usable)
-        for (size_t i = 0; i < used.size(); ++i)
-            records.push_back(
-                {entry.primvars.address() + offsets[i] +
-                     uint64_t(instanceValue(*used[i], instance)) * used[i]->components * sizeof(float),
-                 _names.intern(used[i]->name), gpu::INTERPOLATION_CONSTANT, used[i]->components, 0});
-    pack.write(table, records);
-    pack.upload(_device, entry.primvars);
-    entry.primvarCount = uint32_t(used.size());
-    entry.primvarTable = entry.primvars.address() + table;
-}
-
 ObjectTable::Placement ObjectTable::place(Entry& entry, const Geometry* geometry,
                                           const MaterialTable* materials, uint32_t first,
                                           std::vector<uint32_t>& materialIndices) {
@@ -197,8 +155,7 @@ ObjectTable::Placement ObjectTable::place(Entry& entry, const Geometry* geometry
     placement.geometry = geometry->slot;
     placement.materialCount = geometry->slotCount;
     placement.primId = entry.desc->primId;
-    const uint32_t cull = cullFlags(styleOf(*entry.desc), geometry->mesh->doubleSided);
-    if (cull != 0 && !entry.backToBack.of(geometry->mesh)) placement.flags = cull;
+    placement.flags = cullFlags(styleOf(*entry.desc), geometry->mesh->doubleSided);
     const bool fallbackNonOpaque =
         geometry->translucent || (entry.instances && isTranslucent(entry.instances->primvars));
     for (uint32_t slot = 0; slot < geometry->slotCount; ++slot) {

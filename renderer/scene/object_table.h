@@ -52,8 +52,6 @@ public:
     bool keepNames(bool keep) { return std::exchange(_keepsNames, keep) != keep; }
     /// What objects that inherit their style have. Takes effect in commit().
     void setViewCull(CullStyle style) { _viewCull = style; }
-    /// Whether some object may have INSTANCE_CULL_*.
-    bool anyCulling() const;
     /// Whether any instance has motion.
     bool anyMotion() const;
 
@@ -113,7 +111,6 @@ private:
         WorldBox meshBox, box; ///< of the geometry, splats or volume, in object space; of all instances
         bool transformsPending = true, boundsPending = true;
         bool missingReported = false;
-        BackToBack backToBack;
         bool fresh = false;     ///< added since the last commit: what else is said of it is no change
         gpu::SlotNames names{}; ///< but for the material
         std::vector<SplatPlacement> splats;   ///< of `usable`, as of the last commit

@@ -32,6 +32,7 @@ Hit traceBvh(uint64_t scene, Ray ray, uint mask, const bool any) {
     uint nextKey = 0u; // distance of a triangle's keys; 0: it does not deform
     float keyWeight = 0.0;
     TriangleRay triangleRay_ = TriangleRay(vec3(0.0), 0u, vec3(0.0));
+    uint passed = 0u;      // sides of the instance's faces, see passedSides()
     bool segments = false; // of them `instance` is made
     SegmentRay segmentRay_ = SegmentRay(vec3(0.0), vec3(0.0), 0.0);
     float entry = 0.0, exit = 0.0; // of the instance's world box
@@ -65,6 +66,7 @@ Hit traceBvh(uint64_t scene, Ray ray, uint mask, const bool any) {
                     vec3 direction = mapDirection(record.worldToObject, ray.direction);
                     box = boxRay(origin, direction, record.extent);
                     segments = sceneHas(SCENE_HAS_SEGMENTS) && record.segments != 0u;
+                    if (sceneHas(SCENE_HAS_CULLING)) passed = passedSides(record.culled, ray.flags);
                     if (segments)
                         segmentRay_ = segmentRay(origin, direction);
                     else
@@ -95,11 +97,12 @@ Hit traceBvh(uint64_t scene, Ray ray, uint mask, const bool any) {
                     t.c = mixKeys(t.c, next.c, keyWeight);
                 }
                 float distance, u, v;
-                bool met;
+                bool met, front = true;
                 if (segments)
                     met = canonicalSegmentHit(segmentRay_, box, t.a, t.b, t.c.x, t.c.y, entry, exit, distance, u, v);
                 else
-                    met = canonicalHit(triangleRay_, box, t.a, t.b, t.c, entry, exit, distance, u, v);
+                    met = canonicalHit(triangleRay_, box, t.a, t.b, t.c, entry, exit, distance, u, v, front);
+                if (sceneHas(SCENE_HAS_CULLING)) met = met && !passesSide(passed, front);
                 if (met && distance > ray.tMin &&
                     before(distance, instance, t.primitive, hit.t, hit.instance, hit.primitive))
                     hit = Hit(instance, t.primitive, distance, u, v);

@@ -23,8 +23,8 @@ struct Candidates {
     float turnedDown; // distance of a proposal the canonical test did not confirm, else QUERY_FAR
 };
 
-// Tests a proposed triangle against the ray as it was given.
-void consider(inout Candidates c, SceneRecord scene, Ray ray, uint instance, uint primitive, float proposed) {
+// Tests a proposed triangle against the ray as it was given. False: the ray passes this side of it.
+bool consider(inout Candidates c, SceneRecord scene, Ray ray, uint instance, uint primitive, float proposed) {
     BvhScene top = BvhSceneRef(scene.bvh).v;
     BvhInstance record = BvhInstanceRef(top.instances).v[instance];
     GeometryRecord geometry = GeometryRef(scene.geometries).v[InstanceRef(scene.instances).v[instance].geometry];
@@ -35,20 +35,25 @@ void consider(inout Candidates c, SceneRecord scene, Ray ray, uint instance, uin
     vec3 origin = mapPoint(record.worldToObject, ray.origin);
     vec3 direction = mapDirection(record.worldToObject, ray.direction);
     float entry, exit, t, u, v;
+    bool front;
     boxInterval(boxRay(ray.origin, ray.direction, top.extent), record.lo, record.hi, entry, exit);
     if (!canonicalHit(triangleRay(origin, direction), boxRay(origin, direction, record.extent), a, b, d, entry, exit, t,
-                      u, v)) {
+                      u, v, front)) {
         c.turnedDown = min(c.turnedDown, proposed);
+    } else if (passesSide(passedSides(record.culled, ray.flags), front)) {
+        return false;
     } else if (t > ray.tMin && before(t, instance, primitive, c.best.t, c.best.instance, c.best.primitive)) {
         c.best = Hit(instance, primitive, t, u, v);
         c.edge = onEdge(u, v);
     }
+    return true;
 }
 
 // Tests a segment in whose box the ray is, and returns its distance, QUERY_FAR: a miss.
 float considerSegment(inout Candidates c, SceneRecord scene, Ray ray, uint instance, uint primitive) {
     BvhScene top = BvhSceneRef(scene.bvh).v;
     BvhInstance record = BvhInstanceRef(top.instances).v[instance];
+    if (passesSide(passedSides(record.culled, ray.flags), true)) return QUERY_FAR;
     GeometryRecord geometry = GeometryRef(scene.geometries).v[InstanceRef(scene.instances).v[instance].geometry];
     uint first = UintRef(geometry.triangles).v[primitive];
     vec3 origin = mapPoint(record.worldToObject, ray.origin);
@@ -78,6 +83,8 @@ Hit traceRayQuery(SceneRecord scene, Ray ray, uint mask, const bool any) {
     vec3 across0, across1;
     acrossAxis(ray.direction, across0, across1);
 
+    // Triangles of instances that cull are proposed even so, for a ray may pass the nearest.
+    const uint searchFlags = BvhSceneRef(scene.bvh).v.culls != 0u ? gl_RayFlagsNoneEXT : gl_RayFlagsOpaqueEXT;
     float last = min(ray.tMax * (1.0 + QUERY_WINDOW), QUERY_FAR);
     float from = ray.tMin, to = last;
     bool searching = true;
@@ -89,7 +96,7 @@ Hit traceRayQuery(SceneRecord scene, Ray ray, uint mask, const bool any) {
             origin += (QUERY_RADIUS * allowance) * (cos(angle) * across0 + sin(angle) * across1);
         }
         rayQueryEXT query;
-        uint flags = searching && !any ? gl_RayFlagsOpaqueEXT : gl_RayFlagsNoOpaqueEXT;
+        uint flags = searching && !any ? searchFlags : gl_RayFlagsNoOpaqueEXT;
         rayQueryInitializeEXT(query, sceneTree, flags, mask, origin, from, ray.direction, to);
         while (rayQueryProceedEXT(query)) {
             const uint instance = uint(rayQueryGetIntersectionInstanceIdEXT(query, false));
@@ -99,9 +106,9 @@ Hit traceRayQuery(SceneRecord scene, Ray ray, uint mask, const bool any) {
                 const bool none = rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT;
                 if (t >= from && t <= (none ? to : rayQueryGetIntersectionTEXT(query, true)))
                     rayQueryGenerateIntersectionEXT(query, t);
-            } else {
-                consider(c, scene, ray, instance, primitive,
-                         searching ? rayQueryGetIntersectionTEXT(query, false) : QUERY_FAR);
+            } else if (consider(c, scene, ray, instance, primitive,
+                                searching ? rayQueryGetIntersectionTEXT(query, false) : QUERY_FAR)) {
+                if (searching && !any) rayQueryConfirmIntersectionEXT(query);
             }
             if (any && c.best.instance != NO_INDEX) return c.best;
         }

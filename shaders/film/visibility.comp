@@ -72,14 +72,6 @@ void storeAov(TraceRecord trace, AovTarget target, uint pixel, bool seen, Shadin
 
 // Whether the camera sees anything of a hit.
 bool shows(SceneRecord scene, Hit hit, Ray ray) {
-    if (sceneHas(SCENE_HAS_CULLING)) {
-        ShadingPoint point = shadingPoint(scene, hit);
-        moveTo(point, scene, ray.time);
-        Surface s;
-        vec3 e1, e2;
-        setGeometry(s, point, -ray.direction, e1, e2);
-        if (culls(point.instance.flags, s.frontFacing)) return false;
-    }
     return (scene.flags & SCENE_HAS_NON_OPAQUE) == 0u || evaluatePresence(scene, hit, ray.time) > 0.0;
 }
 

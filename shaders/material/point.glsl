@@ -113,11 +113,6 @@ vec3 frontNormal(ShadingPoint point, vec3 outwards, vec3 e1, vec3 e2) {
     return (point.instance.flags & INSTANCE_MIRRORED) != 0u ? -n : n;
 }
 
-// Whether the camera does not see this side of an instance.
-bool culls(uint instanceFlags, bool frontFacing) {
-    return sceneHas(SCENE_HAS_CULLING) && (instanceFlags & (frontFacing ? INSTANCE_CULL_FRONT : INSTANCE_CULL_BACK)) != 0u;
-}
-
 // The normal of a smooth curve in place of its segments: across its direction, which turns from vertex to vertex. At the
 // spherical ends that of the sphere, `ng`.
 vec3 curveNormal(ShadingPoint point, vec3 ng) {

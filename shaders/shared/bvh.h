@@ -50,7 +50,7 @@ struct BvhInstance {
     uint geometryKeys;       // GeometryRecord::keys
     uint triangleCount;      // or of segments
     uint segments;           // 1: the geometry is made of round segments, 0: of triangles
-    uint pad;
+    uint culled;             // INSTANCE_CULL_*
 };
 
 // Root of the table, at SceneRecord::bvh.
@@ -60,6 +60,8 @@ struct BvhScene {
     uint64_t motionKeys;     // mat4x3[], or 0
     float extent;            // largest |coordinate| of all instance boxes
     uint instanceCount;
+    uint culls;              // 1: some instance has INSTANCE_CULL_*
+    uint pad;
 };
 
 HIPR_SHARED_END

@@ -11,7 +11,7 @@
 // cull a hit that another tree finds.
 #ifndef HIPR_SHARED_INTERSECT_H
 #define HIPR_SHARED_INTERSECT_H
-#include "language.h"
+#include "scene.h"
 #ifdef __cplusplus
 #include <cmath>
 #endif
@@ -124,10 +124,10 @@ HIPR_INLINE TriangleRay triangleRay(vec3 origin, vec3 direction) {
     return r;
 }
 
-// Signed distance t (unbounded, in units of the direction) and the weights u, v of vertices b and c. False: a miss, or
-// the triangle is seen edge-on.
+// Signed distance t (unbounded, in units of the direction), the weights u, v of vertices b and c, and whether the ray comes
+// from the side on which the vertices go round counter-clockwise. False: a miss, or the triangle is seen edge-on.
 HIPR_INLINE bool intersectTriangle(TriangleRay r, vec3 a, vec3 b, vec3 c, HIPR_OUT(float) t, HIPR_OUT(float) u,
-                                   HIPR_OUT(float) v) {
+                                   HIPR_OUT(float) v, HIPR_OUT(bool) front) {
     HIPR_PRECISE vec3 pa = rotateAxes(a - r.origin, r.axis);
     HIPR_PRECISE vec3 pb = rotateAxes(b - r.origin, r.axis);
     HIPR_PRECISE vec3 pc = rotateAxes(c - r.origin, r.axis);
@@ -146,20 +146,30 @@ HIPR_INLINE bool intersectTriangle(TriangleRay r, vec3 a, vec3 b, vec3 c, HIPR_O
     t = (depth * scale) * r.shear.z;
     u = wb * scale;
     v = wc * scale;
+    front = (sum > 0.0f) == (r.shear.z > 0.0f);
     bool inside = (wa >= 0.0f && wb >= 0.0f && wc >= 0.0f) || (wa <= 0.0f && wb <= 0.0f && wc <= 0.0f);
     return inside && sum != 0.0f;
 }
 
 // The canonical hit: intersectTriangle within the boxes. [entry, exit] is the interval of the instance's world box.
 HIPR_INLINE bool canonicalHit(TriangleRay r, BoxRay box, vec3 a, vec3 b, vec3 c, float entry, float exit,
-                              HIPR_OUT(float) t, HIPR_OUT(float) u, HIPR_OUT(float) v) {
-    if (!intersectTriangle(r, a, b, c, t, u, v)) return false;
+                              HIPR_OUT(float) t, HIPR_OUT(float) u, HIPR_OUT(float) v, HIPR_OUT(bool) front) {
+    if (!intersectTriangle(r, a, b, c, t, u, v, front)) return false;
     float boxEntry, boxExit;
     boxInterval(box, min(min(a, b), c), max(max(a, b), c), boxEntry, boxExit);
     boxEntry = max(boxEntry, entry);
     boxExit = min(boxExit, exit);
     t = min(max(t, boxEntry), boxExit);
     return boxEntry <= boxExit;
+}
+
+// The sides of an instance's faces that a ray passes as if they were not there; `culled` and the result are INSTANCE_CULL_*.
+HIPR_INLINE uint passedSides(uint culled, uint rayFlags) {
+    bool passes = (rayFlags & RAY_OF_CAMERA) != 0u || (culled & INSTANCE_CULL_FOR_LIGHT) != 0u;
+    return passes ? culled & (INSTANCE_CULL_BACK | INSTANCE_CULL_FRONT) : 0u;
+}
+HIPR_INLINE bool passesSide(uint passed, bool front) {
+    return (passed & (front ? INSTANCE_CULL_FRONT : INSTANCE_CULL_BACK)) != 0u;
 }
 
 // Whether a hit lies on an edge of its triangle, where the neighbour has it too. (Beside an edge it is the triangle's

@@ -43,8 +43,10 @@ struct PrimvarRecord {
 
 HIPR_CONST uint INSTANCE_NON_OPAQUE = 1u; // some slot's material may let rays through without refraction
 HIPR_CONST uint INSTANCE_MIRRORED = 2u;   // object-to-world flips handedness
-HIPR_CONST uint INSTANCE_CULL_BACK = 4u;  // the camera does not see back faces; light does
-HIPR_CONST uint INSTANCE_CULL_FRONT = 8u; // nor front faces
+HIPR_CONST uint INSTANCE_CULL_BACK = 4u;  // rays of the camera pass back faces; others do not
+HIPR_CONST uint INSTANCE_CULL_FRONT = 8u; // or front faces; never both
+HIPR_CONST uint INSTANCE_CULL_FOR_LIGHT = 16u; // all rays pass them
+HIPR_CONST uint INSTANCE_CULLS = 28u;     // all of these
 
 // One placement of one object: a leaf of the top-level acceleration structure.
 struct InstanceRecord {
@@ -72,7 +74,9 @@ struct Ray {
     vec3 direction;          // unit length
     float tMax;
     float time;              // of the shutter: 0 when it opens, 1 when it closes
+    uint flags;              // RAY_*
 };
+HIPR_CONST uint RAY_OF_CAMERA = 1u; // nothing has scattered it: it passes what instances hide from the camera
 
 // The nearest hit. u, v are the barycentric weights of vertices 1 and 2, or those of intersectSegment().
 struct Hit {
@@ -134,14 +138,14 @@ HIPR_CONST uint SCENE_HAS_GRAPHS = 32u;         // some material's program has o
 HIPR_CONST uint SCENE_HAS_VOLUMES = 64u;
 HIPR_CONST uint SCENE_HAS_MOTION = 128u;        // some object moves or deforms while the shutter is open
 HIPR_CONST uint FILM_SORTS_LIGHT = 256u;        // the film has light path expressions
-HIPR_CONST uint SCENE_HAS_CULLING = 512u;       // some instance has INSTANCE_CULL_*
+HIPR_CONST uint SCENE_HAS_CULLING = 512u;       // some instance has INSTANCE_CULL_*: for the kernels that trace
 HIPR_CONST uint SCENE_HAS_NESTING = 1024u;      // some refractive material has a MaterialRecord::priority other than 0
 HIPR_CONST uint SCENE_HAS_SEGMENTS = 2048u;     // some geometry is made of round segments
 HIPR_CONST uint SCENE_HAS_DIRECTIONS = 8192u;   // some material's program makes INPUT_COAT_NORMAL or a tangent
 // Those that kernels which shade are specialised by: what the scene does not have is not in their code.
 HIPR_CONST uint SCENE_SHADING_FEATURES =
     SCENE_HAS_MESH_LIGHTS | SCENE_HAS_OPENPBR | SCENE_HAS_GRAPHS | SCENE_HAS_MOTION | FILM_SORTS_LIGHT |
-    SCENE_HAS_CULLING | SCENE_HAS_NESTING | SCENE_HAS_SEGMENTS | SCENE_HAS_DIRECTIONS;
+    SCENE_HAS_NESTING | SCENE_HAS_SEGMENTS | SCENE_HAS_DIRECTIONS;
 
 HIPR_SHARED_END
 #endif

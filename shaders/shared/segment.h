@@ -3,7 +3,8 @@
 // the triangle test of intersect.h, whose rules on boxes hold here too. A square root and reciprocals are all they need.
 //
 // A segment is met where a ray comes in, and nowhere else: it is convex, so there is one such place, and that it has no
-// inside makes joints of segments, which lie in one another, as good as one surface for whatever comes from outside.
+// inside makes joints of segments, which lie in one another, as good as one surface for whatever comes from outside. So a
+// ray that passes front faces passes segments.
 //
 // The equations of the cone are written with the parts of vectors across its axis, and discriminants with cross products,
 // for segments are thousands of times as long as they are thick: differences of squares of lengths have no digits left.

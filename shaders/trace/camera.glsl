@@ -8,7 +8,8 @@
 // The part of a ray from `origin` that the camera sees: between the clipping depths, on the right side of all planes.
 Ray seenRay(CameraRef camera, vec3 origin, vec3 direction) {
     const float perDepth = 1.0 / dot(direction, camera.v.forward);
-    Ray ray = Ray(origin, camera.v.nearDepth * perDepth, direction, camera.v.farDepth * perDepth, 0.0);
+    Ray ray = Ray(origin, camera.v.nearDepth * perDepth, direction, camera.v.farDepth * perDepth, 0.0,
+                  RAY_OF_CAMERA);
     for (uint i = 0u; i < camera.v.clipPlaneCount; ++i) {
         const vec4 plane = camera.v.clipPlanes[i];
         const float inside = dot(plane.xyz, origin - camera.v.origin) + plane.w, rate = dot(plane.xyz, direction);
@@ -34,7 +35,7 @@ Ray movedRay(TraceRecord trace, Ray ray) {
     const vec3 direction = mat3(place) * ray.direction;
     const float scale = length(direction);
     return Ray(place * vec4(ray.origin - CameraRef(trace.camera).v.origin, 1.0), ray.tMin * scale, direction / scale,
-               ray.tMax * scale, ray.time);
+               ray.tMax * scale, ray.time, ray.flags);
 }
 
 // The ray of a point of the film through the point of the aperture that u in [0, 1)^2 chooses, all equally likely.

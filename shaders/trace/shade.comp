@@ -43,7 +43,7 @@ void sampleDirectLight(TraceRecord trace, SceneRecord scene, Path path, Surface 
     if (light.end.instance != NO_INDEX && !goesFree(path, surface, light.wi)) return;
     const uint i = appendToQueue(trace, QUEUE_SHADOW + push.turn);
     RayRef(trace.shadowRays).v[i] =
-        Ray(offsetTowards(surface, light.wi), 0.0, light.wi, light.distance * (1.0 - 1e-4), time);
+        Ray(offsetTowards(surface, light.wi), 0.0, light.wi, light.distance * (1.0 - 1e-4), time, 0u);
     ShadowWorkRef(trace.shadowWork).v[i] =
         ShadowWork(contribution, path.depth > 0u ? path.slot | SHADOW_INDIRECT : path.slot, light.shadow,
                    lightMisWeight(light, bsdfPdf), path.event);
@@ -99,7 +99,7 @@ bool bounce(TraceRecord trace, inout Path path, inout Ray ray, Surface surface, 
                   leavesSubsurface(path, surface) ? LPE_NO_EVENT
                                                   : lobe == LOBE_SUBSURFACE ? LPE_SUBSURFACE : LPE_BY_LOBES);
     enterMedium(path, surface, lobe, wi);
-    ray = Ray(offsetTowards(surface, wi), 0.0, wi, RAY_INFINITY, ray.time);
+    ray = Ray(offsetTowards(surface, wi), 0.0, wi, RAY_INFINITY, ray.time, 0u);
     return any(greaterThan(path.throughput, vec3(0.0))) && allFinite(path.throughput);
 }
 
@@ -135,7 +135,7 @@ bool scatterInMedium(TraceRecord trace, MediumRecord medium, inout Path path, in
     ++path.event;
     const vec3 direction = samplePhase(ray.direction, medium.anisotropy, u.xy);
     if ((path.medium & MEDIUM_KIND) == MEDIUM_INTERIOR) sortScattered(trace, path, lobeShares, LPE_VOLUME);
-    ray = Ray(ray.origin + ray.direction * ray.tMax, 0.0, direction, RAY_INFINITY, ray.time);
+    ray = Ray(ray.origin + ray.direction * ray.tMax, 0.0, direction, RAY_INFINITY, ray.time, 0u);
     path.bsdfPdf = -1.0; // no light was sampled here
     path.cone = scatteredCone(path.cone, -1.0);
     return true;
@@ -177,8 +177,6 @@ RayFootprint footprintOf(TraceRecord trace, Path path, float distance_, float u)
 bool scatter(TraceRecord trace, SceneRecord scene, inout Path path, inout Ray ray, Hit hit) {
     const vec4 u = randomVector(trace, path, RANDOM_LIGHT);
     Surface surface = evaluateSurface(scene, hit, ray, footprintOf(trace, path, hit.t, u.y), path.interiors);
-    const InstanceRecord instance = InstanceRef(scene.instances).v[hit.instance];
-    if (path.depth == 0u && culls(instance.flags, surface.frontFacing)) return passSurface(path, ray, hit);
     if (sceneHas(SCENE_HAS_NESTING) && surface.hidden) {
         path.interiors = crossedInteriors(path.interiors, surface.material, surface.frontFacing);
         return passSurface(path, ray, hit);
@@ -195,7 +193,7 @@ bool scatter(TraceRecord trace, SceneRecord scene, inout Path path, inout Ray ra
     if (path.depth >= trace.maxDepth) return false;
     path.cone = flownCone(path.cone, hit.t);
     disperse(trace, scene, path, surface);
-    path.categories = instance.categories;
+    path.categories = InstanceRef(scene.instances).v[hit.instance].categories;
     path.lightNormal = surface.openPbr || surface.glass > 0.0 ? 0u : packLightNormal(surface.ng);
     const vec3 wo = -ray.direction;
     sampleDirectLight(trace, scene, path, surface, wo, u, ray.time);

@@ -62,7 +62,7 @@ void sampleVolumeLight(TraceRecord trace, SceneRecord scene, Path path, vec3 pos
     // Surfaces that emit are found through homogeneous media by the path alone, as in shade.comp.
     if (light.end.instance != NO_INDEX && (path.medium & MEDIUM_KIND) != MEDIUM_NONE) return;
     const uint i = appendToQueue(trace, QUEUE_SHADOW + push.turn);
-    RayRef(trace.shadowRays).v[i] = Ray(position, 0.0, light.wi, light.distance * (1.0 - 1e-4), time);
+    RayRef(trace.shadowRays).v[i] = Ray(position, 0.0, light.wi, light.distance * (1.0 - 1e-4), time, 0u);
     ShadowWorkRef(trace.shadowWork).v[i] =
         ShadowWork(contribution, path.depth > 1u ? path.slot | SHADOW_INDIRECT : path.slot, light.shadow,
                    lightMisWeight(light, phase), path.event);
@@ -116,7 +116,7 @@ bool scatterInVolume(TraceRecord trace, SceneRecord scene, inout Path path, inou
     if (path.depth == 0u) path.depth = 1u;
     ++path.event;
     sortScattered(trace, path, noLobes(), LPE_VOLUME);
-    ray = Ray(position, 0.0, wi, RAY_INFINITY, ray.time);
+    ray = Ray(position, 0.0, wi, RAY_INFINITY, ray.time, 0u);
     return allFinite(path.throughput);
 }
 

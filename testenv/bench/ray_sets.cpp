@@ -16,7 +16,7 @@ std::vector<gpu::Ray> primaryRays(uint32_t size) {
             const uint32_t x = tile % (size / 8) * 8 + pixel % 8, y = tile / (size / 8) * 8 + pixel / 8;
             const glm::vec3 direction{2.f * (float(x) + 0.5f) / float(size) - 1.f,
                                       2.f * (float(y) + 0.5f) / float(size) - 1.f, -1.2f};
-            rays.push_back({Eye, 0.f, glm::normalize(direction), INFINITY, 0.f});
+            rays.push_back({Eye, 0.f, glm::normalize(direction), INFINITY, 0.f, 0u});
         }
     return rays;
 }
@@ -45,11 +45,12 @@ std::vector<RaySet> raySets(const BareEmbree& embree, const TriangleMesh& mesh, 
         if (glm::dot(n, n) == 0.f) continue;
         n = glm::normalize(glm::dot(n, ray.direction) < 0.f ? n : -n);
         const glm::vec3 p = ray.origin + hits[i].t * ray.direction + 1e-4f * n;
-        bounce.rays.push_back({p, 0.f, cosineDirection(n, random(engine), random(engine)), INFINITY, 0.f});
+        bounce.rays.push_back(
+            {p, 0.f, cosineDirection(n, random(engine), random(engine)), INFINITY, 0.f, 0u});
         const float radius = LightRadius * std::sqrt(random(engine)), phi = 6.2831853f * random(engine);
         const glm::vec3 way = LightCentre + radius * glm::vec3(std::cos(phi), 0.f, std::sin(phi)) - p;
         const float distance = glm::length(way);
-        shadow.rays.push_back({p, 0.f, way / distance, distance, 0.f});
+        shadow.rays.push_back({p, 0.f, way / distance, distance, 0.f, 0u});
     }
     return {std::move(primary), std::move(bounce), std::move(shadow)};
 }

@@ -12,7 +12,7 @@ namespace {
 constexpr float PI = 3.14159265358979f;
 
 gpu::Ray rayFrom(const glm::vec3& origin, const glm::vec3& direction) {
-    return {origin, 0.0f, direction, std::numeric_limits<float>::infinity(), 0.0f};
+    return {origin, 0.0f, direction, std::numeric_limits<float>::infinity(), 0.0f, 0u};
 }
 
 glm::vec3 toWorld(const gpu::InstanceRecord& i, const glm::vec3& p) {
@@ -159,6 +159,16 @@ void spreadOverTime(std::vector<gpu::Ray>& rays, uint32_t seed) {
         ray.time = random.between(0.0f, 1.0f);
     rays[0].time = 0.0f;
     rays[1].time = 1.0f;
+}
+
+void makeCull(RayScene& scene, std::vector<gpu::Ray>& rays) {
+    constexpr uint32_t Culls[] = {0, gpu::INSTANCE_CULL_BACK, gpu::INSTANCE_CULL_FRONT,
+                                  gpu::INSTANCE_CULL_BACK | gpu::INSTANCE_CULL_FOR_LIGHT,
+                                  gpu::INSTANCE_CULL_FRONT | gpu::INSTANCE_CULL_FOR_LIGHT};
+    for (size_t i = 0; i < scene.instances.size(); ++i)
+        scene.instances[i].flags |= Culls[(i + 1) % 5];
+    for (size_t i = 0; i < rays.size(); i += 2)
+        rays[i].flags = gpu::RAY_OF_CAMERA;
 }
 
 std::vector<gpu::Ray> randomRays(uint32_t count, float half, uint32_t seed) {

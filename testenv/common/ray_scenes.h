@@ -64,6 +64,9 @@ void setMoving(RayScene& scene, uint32_t keys, Random& random, float half);
 /// Gives every ray a random time, the first ones the ends of the shutter.
 void spreadOverTime(std::vector<gpu::Ray>& rays, uint32_t seed);
 
+/// Has instances cull, each in another way but every fifth, and makes every second ray one of the camera.
+void makeCull(RayScene& scene, std::vector<gpu::Ray>& rays);
+
 /// Random rays around a scene of half width `half`.
 std::vector<gpu::Ray> randomRays(uint32_t count, float half, uint32_t seed);
 /// Rays from random points aimed at vertices, edge points and interior points of the scene's triangles, in

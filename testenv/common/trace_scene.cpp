@@ -179,15 +179,18 @@ gpu::Hit bruteForceRay(const RayScene& scene, const InstanceTable& table, const 
         const gpu::TriangleRay triangleRay = gpu::triangleRay(origin, direction);
         const gpu::BoxRay box = gpu::boxRay(origin, direction, record.extent);
         const TriangleMesh& mesh = scene.meshes[scene.instances[i].geometry];
+        const uint32_t passed = gpu::passedSides(record.culled, ray.flags);
         const gpu::SegmentRay segmentRay = gpu::segmentRay(origin, direction);
         for (uint32_t p = 0; p < mesh.size(); ++p) {
             const auto [a, b, c] = cornersAt(mesh, p, ray.time);
             float t, u, v;
+            bool front = true;
             const bool met =
                 mesh.segments.empty()
-                    ? gpu::canonicalHit(triangleRay, box, a, b, c, entry, exit, t, u, v)
+                    ? gpu::canonicalHit(triangleRay, box, a, b, c, entry, exit, t, u, v, front)
                     : gpu::canonicalSegmentHit(segmentRay, box, a, b, c.x, c.y, entry, exit, t, u, v);
-            if (met && t > ray.tMin && gpu::before(t, i, p, best.t, best.instance, best.primitive))
+            if (met && !gpu::passesSide(passed, front) && t > ray.tMin &&
+                gpu::before(t, i, p, best.t, best.instance, best.primitive))
                 best = {i, p, t, u, v};
         }
     }

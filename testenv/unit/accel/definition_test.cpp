@@ -12,7 +12,7 @@ namespace hipr::test {
 namespace {
 
 struct DoubleHit {
-    bool hit = false;
+    bool hit = false, front = false;
     double t = 0, margin = 0; ///< smallest barycentric weight, negative outside
     double slant = 0;         ///< |cosine| between ray and normal
 };
@@ -29,6 +29,7 @@ DoubleHit doubleHit(const gpu::Ray& ray, const glm::dvec3& a, const glm::dvec3& 
     h.t = glm::dot(e2, q) / det;
     h.margin = std::min(u, std::min(v, 1.0 - u - v));
     h.hit = h.margin >= 0.0;
+    h.front = det > 0.0;
     h.slant = std::abs(det) / (glm::length(glm::cross(e1, e2)) * glm::length(d));
     return h;
 }
@@ -45,11 +46,13 @@ void expectLikeDouble(float scale) {
         const DoubleHit expected = doubleHit(ray, a, b, c);
         if (std::abs(expected.margin) < 1e-4 || expected.slant < 1e-2) continue;
         float t, u, v;
+        bool front;
         const bool hit =
-            gpu::intersectTriangle(gpu::triangleRay(ray.origin, ray.direction), a, b, c, t, u, v);
+            gpu::intersectTriangle(gpu::triangleRay(ray.origin, ray.direction), a, b, c, t, u, v, front);
         ASSERT_EQ(hit, expected.hit) << "ray " << i;
         ++compared;
         if (!hit) continue;
+        EXPECT_EQ(front, expected.front) << "ray " << i;
         EXPECT_NEAR(t, expected.t, 1e-4 * std::abs(expected.t) + 1e-5 * scale) << "ray " << i;
     }
     EXPECT_GT(compared, 1500u);
@@ -90,8 +93,9 @@ TEST(Definition, BoxesAroundAHitAreMet) {
         const glm::vec3 direction = corners[0] + s * (corners[i % 2 + 1] - corners[0]) - origin;
         const gpu::BoxRay box = gpu::boxRay(origin, direction, 3.0f);
         float t, u, v, entry, exit;
+        bool front;
         if (!gpu::canonicalHit(gpu::triangleRay(origin, direction), box, corners[0], corners[1], corners[2],
-                               -1e30f, 1e30f, t, u, v))
+                               -1e30f, 1e30f, t, u, v, front))
             continue;
         ++hits;
         Bounds around;

@@ -165,6 +165,32 @@ TEST_P(Hits, Masks) {
     }
 }
 
+TEST_P(Hits, SidesThatRaysPass) {
+    RayScene scene = instancedScene(30, 21);
+    auto rays = randomRays(count(40000), 3.0f, 22);
+    makeCull(scene, rays);
+    expectDefinition(scene, rays);
+    const auto expected = bruteForce(scene, rays);
+    const auto blocked = TraceScene(GetParam(), scene).occluded(rays);
+    for (uint32_t i = 0; i < rays.size(); ++i)
+        ASSERT_EQ(blocked[i], expected[i].instance != gpu::NO_INDEX);
+    // A ball's faces look inwards: without them nothing is seen from inside, and without their backs its far
+    // side from outside.
+    for (const uint32_t flag : {gpu::INSTANCE_CULL_FRONT, gpu::INSTANCE_CULL_BACK}) {
+        const bool inside = flag == gpu::INSTANCE_CULL_FRONT;
+        const RayScene ball{{bumpySphere(12, 1.0f)}, {placed(0, glm::dmat4(1.0), flag)}};
+        std::vector<gpu::Ray> towards = aimedRays(ball, count(2000), 0.2f, 23);
+        for (gpu::Ray& ray : towards) {
+            ray.flags = gpu::RAY_OF_CAMERA;
+            if (!inside) ray.origin -= 5.0f * ray.direction;
+        }
+        uint32_t wrong = 0;
+        for (const gpu::Hit& hit : TraceScene(GetParam(), ball).nearest(towards))
+            wrong += (hit.instance == gpu::NO_INDEX) != inside || (!inside && hit.t < 5.0f);
+        EXPECT_LE(wrong, uint32_t(allowedAimed() * double(towards.size())));
+    }
+}
+
 TEST_P(Hits, OcclusionIsHavingANearestHit) {
     const RayScene scene = instancedScene(30, 16);
     auto rays = randomRays(count(60000), 3.0f, 17);
@@ -185,7 +211,7 @@ TEST_P(Hits, OcclusionIsHavingANearestHit) {
 TEST_P(Hits, IntervalEnds) {
     const RayScene scene{{grid(1, 1.0f, 2)}, {placed(0, glm::dmat4(1.0))}};
     auto ray = [](float tMin, float tMax) {
-        return gpu::Ray{{0.25f, 0.125f, -2.0f}, tMin, {0.0f, 0.0f, 1.0f}, tMax, 0.0f};
+        return gpu::Ray{{0.25f, 0.125f, -2.0f}, tMin, {0.0f, 0.0f, 1.0f}, tMax, 0.0f, 0u};
     };
     const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
     std::vector<gpu::Ray> rays = {ray(0, inf), ray(0, 2),       ray(0, 1.9999f),

@@ -68,7 +68,7 @@ TEST_P(MovingHits, ABallFliesPast) {
     scene.keys = {from, to};
     std::vector<gpu::Ray> rays;
     for (int i = 0; i <= 100; ++i) // along z, where the ball's middle comes by at time 3/4
-        rays.push_back({{1.0f, 0.01f, -5.0f}, 0.0f, {0.0f, 0.0f, 1.0f}, 1e30f, float(i) / 100.0f});
+        rays.push_back({{1.0f, 0.01f, -5.0f}, 0.0f, {0.0f, 0.0f, 1.0f}, 1e30f, float(i) / 100.0f, 0u});
     const auto hits = TraceScene(GetParam(), scene).nearest(rays);
     for (int i = 0; i <= 100; ++i) {
         const float away = std::abs(4.0f * float(i) / 100.0f - 3.0f); // the radius is 0.45 to 0.55
@@ -90,6 +90,19 @@ TEST_P(MovingHits, CurvesThatDeform) {
         scene.instances = {scene.instances[0]}; // of curves alone
         expectDefinition(scene, aimedRays(scene, 30000, 2.0f, 7));
     }
+}
+
+TEST_P(MovingHits, SidesThatRaysPass) {
+    RayScene scene{{bumpySphere(7, 0.5f), soup(60, 0.5f, 0.3f, 1), strands(20, 0.5f, 0.2f, 0.05f, 3)}, {}};
+    deform(scene.meshes[0], 3, 0.05f, 2);
+    Random random(5);
+    for (uint32_t i = 0; i < 20; ++i) {
+        scene.instances.push_back(placed(i % 3, randomPlacement(random, 1.5f, i % 2)));
+        if (i % 4) setMoving(scene, 3, random, 0.5f);
+    }
+    auto rays = randomRays(30000, 2.0f, 6);
+    makeCull(scene, rays);
+    expectDefinition(scene, rays);
 }
 
 /// Edits of keys give the hits of a scene built anew.

@@ -60,7 +60,7 @@ gpu::Ray rayTowards(Random& random, const Segment& s, float size, float away) {
     const float share = random.between(-0.1f, 1.1f);
     const glm::vec3 on = s.a + share * (s.b - s.a);
     const glm::vec3 target = on + 1.3f * glm::mix(s.radiusA, s.radiusB, share) * random.direction();
-    gpu::Ray ray{target + away * size * random.direction(), 0.0f, glm::vec3(0.0f), 1e30f, 0.0f};
+    gpu::Ray ray{target + away * size * random.direction(), 0.0f, glm::vec3(0.0f), 1e30f, 0.0f, 0u};
     if (random.below(10) == 0 && s.a != s.b) // along the axis
         ray.origin = target + away * size * glm::normalize(s.b - s.a) * (random.below(2) ? 1.0f : -1.0f);
     ray.direction = glm::normalize(target - ray.origin);
@@ -134,8 +134,8 @@ TEST(Segment, ChainsHaveNoHoles) {
             const float inside = 0.9f * glm::mix(chain.radii[k], chain.radii[k + 1], share);
             const glm::vec3 target = on + inside * random.between(0.0f, 1.0f) * random.direction();
             const glm::vec3 origin = target + 20.0f * random.direction();
-            rays.push_back(
-                {origin, 0.0f, glm::normalize(target - origin), glm::length(target - origin) + 1e-5f, 0.0f});
+            rays.push_back({origin, 0.0f, glm::normalize(target - origin),
+                            glm::length(target - origin) + 1e-5f, 0.0f, 0u});
         }
         uint32_t holes = 0;
         for (const gpu::Hit& hit : bruteForce(scene, rays))

@@ -158,6 +158,10 @@ TEST(WideWalk, EveryCompilationGivesTheDefinition) {
         Walked(scene).expectDefinition(*walk, segments);
         Walked(alone).expectDefinition(*walk, aimedRays(alone, 20000, 0.3f, 6));
     }
+    auto passing = randomRays(20000, 3.0f, 3);
+    makeCull(scene, passing);
+    for (const WideWalk* walk : wideWalks())
+        Walked(scene).expectDefinition(*walk, passing);
 }
 
 TEST(WideWalk, EveryCompilationKnowsTheTime) {

@@ -87,7 +87,7 @@ std::vector<SurfaceOutcome> SurfaceScene::look(const std::vector<glm::vec2>& poi
 
     const glm::vec3 down = glm::normalize(glm::vec3(objectToWorld * glm::vec4(0, 0, fromBack ? 1 : -1, 0)));
     std::vector<gpu::Hit> hits;
-    std::vector<gpu::Ray> rays(points.size(), {glm::vec3(0.f), 0.f, down, 1e30f, 0.f});
+    std::vector<gpu::Ray> rays(points.size(), {glm::vec3(0.f), 0.f, down, 1e30f, 0.f, 0u});
     for (const glm::vec2& p : points) // u weighs the triangle's second vertex, v its third
         hits.push_back(p.x >= p.y ? gpu::Hit{0, 0, 1.f, p.x - p.y, p.y}
                                   : gpu::Hit{0, 1, 1.f, p.x, p.y - p.x});
