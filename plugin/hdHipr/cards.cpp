@@ -121,31 +121,6 @@ bool isCards(hipr::MeshDesc const& mesh) {
                        [](hipr::Primvar const& primvar) { return primvar.name == "cardsUv"; });
 }
 
-hipr::MeshDesc separateCards(hipr::MeshDesc mesh) {
-    glm::vec3 low(0.f), high(0.f);
-    for (size_t i = 0; i < mesh.points.size(); ++i) {
-        low = i ? glm::min(low, mesh.points[i]) : mesh.points[i];
-        high = i ? glm::max(high, mesh.points[i]) : mesh.points[i];
-    }
-    const float step = 1e-4f * glm::length(high - low);
-    size_t first = 0;
-    for (const int32_t count : mesh.faceVertexCounts) {
-        const auto corner = [&](size_t i) { return size_t(mesh.faceVertexIndices[first + i]); };
-        const size_t end = first + size_t(std::max(count, 0));
-        if (count == 4 && end <= mesh.faceVertexIndices.size() &&
-            std::max({corner(0), corner(1), corner(2), corner(3)}) < mesh.points.size()) {
-            const glm::vec3 across = glm::cross(mesh.points[corner(1)] - mesh.points[corner(0)],
-                                                mesh.points[corner(2)] - mesh.points[corner(0)]);
-            const float area = glm::length(across);
-            for (size_t i = 0; i < 4 && area > 0.f; ++i) {
-                mesh.points[corner(i)] += across * ((mesh.leftHanded ? -step : step) / area);
-            }
-        }
-        first = end;
-    }
-    return mesh;
-}
-
 } // namespace hdhipr
 
 PXR_NAMESPACE_CLOSE_SCOPE

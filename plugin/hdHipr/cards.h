@@ -18,13 +18,9 @@ bool isCardShader(HdMaterialNode const& surface);
 /// colour) of the side that the primvar `cardsTexAssign` names, and is not there where that is transparent.
 HdMaterialNetwork cardNetwork(HdMaterialNetwork const& network, HdMaterialNode const& surface);
 
-/// Whether a mesh is a model's cards.
+/// Whether a mesh is a model's cards. The two pictures of a card lie on one another: each is to be seen from
+/// its side alone, also in mirrors.
 bool isCards(hipr::MeshDesc const& mesh);
-
-/// The mesh with its faces moved apart by some 1e-4 of its size, each along its normal. The two pictures of a
-/// card lie on one another, where Storm culls the one that looks away; here a ray finds the one that looks at
-/// it.
-hipr::MeshDesc separateCards(hipr::MeshDesc mesh);
 
 } // namespace hdhipr
 

@@ -342,14 +342,6 @@ hipr::InstancesDesc hdhipr::readInstances(HdSceneDelegate& delegate, SdfPath con
         return desc;
     }
     desc.motion = instanceMotion(ownSamples, levels);
-    const bool steady =
-        std::all_of(desc.motion.transforms.begin(), desc.motion.transforms.end(),
-                    [&](auto const& transforms) { return transforms.size() == desc.transforms.size(); });
-    if (!steady) {
-        warnOnce(id.GetString(),
-                 "its instances are not the same while the shutter is open; they stand still");
-        desc.motion = {};
-    }
     return desc;
 }
 

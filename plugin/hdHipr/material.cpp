@@ -10,7 +10,8 @@ void HdHiprMaterial::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
     auto& param = static_cast<HdHiprRenderParam&>(*renderParam);
     if (*dirtyBits & (DirtyResource | DirtyParams)) {
         const HdMaterialNetworkMap networks = hdhipr::materialNetworks(*delegate, GetId());
-        param.setMaterial(GetId(), hdhipr::materialDesc(GetId(), networks));
+        _surface = hdhipr::materialDesc(GetId(), networks);
+        param.setMaterial(GetId(), _surface);
         if (const auto look = hdhipr::volumeLook(GetId(), networks)) {
             param.edit().setVolumeLook(param.materialId(GetId()), *look);
         } else {
@@ -26,6 +27,12 @@ void HdHiprMaterial::Finalize(HdRenderParam* renderParam) {
         param.setMaterial(GetId(), std::nullopt);
         param.edit().removeVolumeLook(param.materialId(GetId()));
     }
+}
+
+std::optional<hipr::MaterialDesc> hdhipr::surfaceOf(HdRenderIndex& index, SdfPath const& path) {
+    auto const* material =
+        static_cast<HdHiprMaterial const*>(index.GetSprim(HdPrimTypeTokens->material, path));
+    return material ? material->surface() : std::nullopt;
 }
 
 PXR_NAMESPACE_CLOSE_SCOPE

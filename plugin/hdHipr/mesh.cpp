@@ -4,12 +4,10 @@
 
 #include "plugin/hdHipr/cards.h"
 #include "plugin/hdHipr/convert.h"
-#include "plugin/hdHipr/instancer.h"
-#include "plugin/hdHipr/materialNetwork.h"
+#include "plugin/hdHipr/material.h"
 #include "plugin/hdHipr/messages.h"
 #include "plugin/hdHipr/motion.h"
 #include "plugin/hdHipr/primvars.h"
-#include "plugin/hdHipr/renderParam.h"
 #include "pxr/imaging/hd/tokens.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
@@ -18,12 +16,8 @@ using namespace hdhipr;
 
 namespace {
 
-constexpr HdDirtyBits objectBits = HdChangeTracker::DirtyVisibility | HdChangeTracker::DirtyMaterialId |
-                                   HdChangeTracker::DirtyPrimID | HdChangeTracker::DirtyRenderTag |
-                                   HdChangeTracker::DirtyTopology | HdChangeTracker::DirtyCategories |
-                                   HdChangeTracker::DirtyCullStyle;
-constexpr HdDirtyBits instanceBits =
-    HdChangeTracker::DirtyTransform | HdChangeTracker::DirtyInstancer | HdChangeTracker::DirtyInstanceIndex;
+/// What changes the object of a mesh: subsets name materials.
+constexpr HdDirtyBits meshBits = HdChangeTracker::DirtyTopology | HdChangeTracker::DirtyCullStyle;
 constexpr HdDirtyBits styleBits =
     HdChangeTracker::DirtyDisplayStyle | HdChangeTracker::DirtyRepr | HdChangeTracker::NewRepr;
 constexpr HdDirtyBits primvarBits = HdChangeTracker::DirtyPoints | HdChangeTracker::DirtyNormals |
@@ -33,13 +27,12 @@ constexpr HdDirtyBits primvarBits = HdChangeTracker::DirtyPoints | HdChangeTrack
 } // namespace
 
 HdHiprMesh::HdHiprMesh(SdfPath const& id, SdfPath const& instancerId, HdHiprRenderParam& param)
-    : RprimBase(id, instancerId), _geometry(param.newId<hipr::GeometryId>()),
-      _object(param.newId<hipr::ObjectId>()) {
+    : ObjectPrim(id, instancerId, param), _geometry(param.newId<hipr::GeometryId>()) {
     _desc.name = id.GetString();
 }
 
 HdDirtyBits HdHiprMesh::GetInitialDirtyBitsMask() const {
-    return HdChangeTracker::InitRepr | objectBits | instanceBits | primvarBits |
+    return HdChangeTracker::InitRepr | objectBits | meshBits | instanceBits | primvarBits |
            HdChangeTracker::DirtyDisplayStyle | HdChangeTracker::DirtyRepr |
            HdChangeTracker::DirtySubdivTags | HdChangeTracker::DirtyDoubleSided;
 }
@@ -70,7 +63,7 @@ void HdHiprMesh::_InitRepr(TfToken const& reprToken, HdDirtyBits* dirtyBits) {
 
 void HdHiprMesh::Finalize(HdRenderParam* renderParam) {
     auto& param = static_cast<HdHiprRenderParam&>(*renderParam);
-    param.removeObject(_object);
+    removeObject(param);
     stopShining(param);
     param.edit().removeGeometry(_geometry);
     HdMesh::Finalize(renderParam);
@@ -79,14 +72,7 @@ void HdHiprMesh::Finalize(HdRenderParam* renderParam) {
 void HdHiprMesh::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdDirtyBits* dirtyBits,
                       TfToken const& reprToken) {
     auto& param = static_cast<HdHiprRenderParam&>(*renderParam);
-    syncInstancer(delegate, dirtyBits);
-    const HdDirtyBits bits = *dirtyBits;
-    if (bits & HdChangeTracker::DirtyVisibility) {
-        _UpdateVisibility(delegate, dirtyBits);
-    }
-    if (bits & HdChangeTracker::DirtyMaterialId) {
-        updateMaterialId(delegate, delegate->GetMaterialId(GetId()));
-    }
+    const HdDirtyBits bits = syncBase(delegate, dirtyBits);
 
     const std::string lightGroup = _lightGroup;
     Rebuild rebuild = syncTopology(delegate, bits, reprToken);
@@ -96,14 +82,14 @@ void HdHiprMesh::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdD
     if (rebuild != Rebuild::None) {
         sendGeometry(*delegate, rebuild, param);
     }
-    const bool relinked = _links.sync(*delegate, GetId(), GetInstancerId(), bits);
+    const bool relinked = syncLinks(*delegate, bits);
     const bool areaChanged =
         _light && _light->normalize && (rebuild != Rebuild::None || (bits & instanceBits));
-    if ((bits & objectBits) || lightGroup != _lightGroup || areaChanged) {
-        sendObject(delegate, param);
+    if ((bits & (objectBits | meshBits)) || lightGroup != _lightGroup || areaChanged) {
+        sendObject(*delegate, param);
     }
     if (relinked || (bits & instanceBits)) {
-        sendInstances(delegate, param);
+        sendInstances(standingAt(*delegate, param.sampling()), param);
     }
     *dirtyBits = HdChangeTracker::Clean; // custom bits, too: AllDirty holds them
 }
@@ -154,12 +140,7 @@ void HdHiprMesh::sendGeometry(HdSceneDelegate& delegate, Rebuild rebuild, HdHipr
     const bool pointsOnly = rebuild == Rebuild::Points && _mesh && !_mesh->triangles.empty();
     // Not for good: there may be other points before there are other velocities.
     std::vector<hipr::Primvar> unfit = _velocities.takeUnfit(GetId(), _desc.points.size(), _desc.primvars);
-    if (isCards(_desc)) {
-        _mesh = hipr::buildTriangleMesh(separateCards(_desc), report);
-    } else {
-        _mesh =
-            pointsOnly ? hipr::updatePoints(*_mesh, _desc, report) : hipr::buildTriangleMesh(_desc, report);
-    }
+    _mesh = pointsOnly ? hipr::updatePoints(*_mesh, _desc, report) : hipr::buildTriangleMesh(_desc, report);
     std::move(unfit.begin(), unfit.end(), std::back_inserter(_desc.primvars));
     param.edit().setGeometry(_geometry, meshWithMotion(delegate, param.sampling()));
 }
@@ -188,18 +169,11 @@ std::shared_ptr<const hipr::TriangleMesh> HdHiprMesh::meshWithMotion(HdSceneDele
     });
 }
 
-void HdHiprMesh::sendObject(HdSceneDelegate* delegate, HdHiprRenderParam& param) {
-    ObjectState state;
-    state.path = GetId();
-    state.renderTag = delegate->GetRenderTag(GetId());
-    state.desc.name = _desc.name;
-    state.desc.geometry = _geometry;
-    state.desc.visible = IsVisible();
-    state.desc.primId = GetPrimId();
-    state.desc.categories = _links.names();
-    state.desc.lightGroup = _lightGroup;
-    state.desc.cull = toCullStyle(GetCullStyle(delegate));
-    _light = meshLight(delegate, GetId());
+void HdHiprMesh::describe(HdSceneDelegate& delegate, HdHiprRenderParam& param, hipr::ObjectDesc& desc) {
+    desc.geometry = _geometry;
+    desc.lightGroup = _lightGroup;
+    desc.cull = isCards(_desc) ? hipr::CullStyle::BackAndForLight : toCullStyle(GetCullStyle(&delegate));
+    _light = meshLight(&delegate, GetId());
     if (!_light) {
         stopShining(param);
     }
@@ -208,28 +182,24 @@ void HdHiprMesh::sendObject(HdSceneDelegate* delegate, HdHiprRenderParam& param)
         paths.push_back(path.IsEmpty() ? GetMaterialId() : path);
     }
     for (size_t slot = 0; slot < paths.size(); ++slot) {
-        state.desc.materials.push_back(_light ? shining(delegate, param, slot, paths[slot])
-                                              : param.materialId(paths[slot]));
+        desc.materials.push_back(_light ? shining(delegate, param, slot, paths[slot])
+                                        : param.materialId(paths[slot]));
     }
-    param.setObject(_object, state);
 }
 
 /// The material of a slot as the mesh's light has it shine.
-hipr::MaterialId HdHiprMesh::shining(HdSceneDelegate* delegate, HdHiprRenderParam& param, size_t slot,
+hipr::MaterialId HdHiprMesh::shining(HdSceneDelegate& delegate, HdHiprRenderParam& param, size_t slot,
                                      SdfPath const& base) {
     while (_shining.size() <= slot) {
         _shining.push_back(param.newId<hipr::MaterialId>());
     }
     MeshLight light = *_light;
     if (light.normalize && _mesh) {
-        const double area = worldArea(*_mesh, delegate->GetTransform(GetId()));
+        const double area = worldArea(*_mesh, delegate.GetTransform(GetId()));
         light.radiance *= area > 0 ? float(1 / area) : 0.f;
     }
-    std::optional<hipr::MaterialDesc> desc;
-    if (!base.IsEmpty()) {
-        desc = materialDesc(base, materialNetworks(*delegate, base));
-    }
-    param.shiningMaterials().set(_shining[slot], base, desc, light, param.edit());
+    param.shiningMaterials().set(_shining[slot], base, surfaceOf(delegate.GetRenderIndex(), base), light,
+                                 param.edit());
     return _shining[slot];
 }
 
@@ -238,16 +208,6 @@ void HdHiprMesh::stopShining(HdHiprRenderParam& param) {
         param.shiningMaterials().remove(id, param.edit());
     }
     _shining.clear();
-}
-
-void HdHiprMesh::renderTagChanged(HdSceneDelegate* delegate, HdRenderParam* renderParam) {
-    if (_mesh) {
-        sendObject(delegate, static_cast<HdHiprRenderParam&>(*renderParam));
-    }
-}
-
-void HdHiprMesh::sendInstances(HdSceneDelegate* delegate, HdHiprRenderParam& param) {
-    param.edit().setInstances(_object, readInstances(*delegate, GetId(), GetInstancerId(), param.sampling()));
 }
 
 PXR_NAMESPACE_CLOSE_SCOPE

@@ -5,22 +5,19 @@
 #include <memory>
 #include <vector>
 
-#include "plugin/hdHipr/compat.h"
-#include "plugin/hdHipr/instancer.h"
 #include "plugin/hdHipr/meshLight.h"
 #include "plugin/hdHipr/meshTopology.h"
+#include "plugin/hdHipr/objectPrim.h"
 #include "plugin/hdHipr/primvars.h"
 #include "plugin/hdHipr/velocity.h"
 #include "renderer/api/scene.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
 
-class HdHiprRenderParam;
-
 /// Sync turns dirty bits into the smallest edit: a moved mesh sends transforms, a deformed one new points, a
 /// rebound one materials; only changed topology, subdivision or primvars build the triangles again (on the
 /// Sync thread).
-class HdHiprMesh final : public hdhipr::RprimBase<HdMesh> {
+class HdHiprMesh final : public hdhipr::ObjectPrim<HdMesh> {
 public:
     HdHiprMesh(SdfPath const& id, SdfPath const& instancerId, HdHiprRenderParam& param);
 
@@ -32,7 +29,7 @@ public:
 protected:
     void _InitRepr(TfToken const& reprToken, HdDirtyBits* dirtyBits) override;
     HdDirtyBits _PropagateDirtyBits(HdDirtyBits bits) const override;
-    void renderTagChanged(HdSceneDelegate* delegate, HdRenderParam* renderParam) override;
+    void describe(HdSceneDelegate& delegate, HdHiprRenderParam& param, hipr::ObjectDesc& desc) override;
 
 private:
     enum class Rebuild { None, Points, All };
@@ -49,14 +46,11 @@ private:
     void sendGeometry(HdSceneDelegate& delegate, Rebuild rebuild, HdHiprRenderParam& param);
     std::shared_ptr<const hipr::TriangleMesh> meshWithMotion(HdSceneDelegate& delegate,
                                                              hdhipr::Sampling const& sampling) const;
-    void sendObject(HdSceneDelegate* delegate, HdHiprRenderParam& param);
-    void sendInstances(HdSceneDelegate* delegate, HdHiprRenderParam& param);
-    hipr::MaterialId shining(HdSceneDelegate* delegate, HdHiprRenderParam& param, size_t slot,
+    hipr::MaterialId shining(HdSceneDelegate& delegate, HdHiprRenderParam& param, size_t slot,
                              SdfPath const& base);
     void stopShining(HdHiprRenderParam& param);
 
     hipr::GeometryId _geometry;
-    hipr::ObjectId _object;
     hipr::MeshDesc
         _desc; ///< kept: an edit of one part needs the others, and Hydra drops what it has handed over
     hdhipr::DescriptorChoice _descriptorChoice;
@@ -66,7 +60,6 @@ private:
     std::optional<HdExtComputationPrimvarDescriptor> _pointsComputed; ///< the points are among them
     hdhipr::PointVelocities _velocities;
     SdfPathVector _subsetMaterials;
-    hdhipr::LinkState _links;
     std::string _lightGroup; ///< of what it emits
     std::optional<hdhipr::MeshLight> _light;
     std::vector<hipr::MaterialId> _shining; ///< by slot, if it is a light

@@ -1,7 +1,5 @@
 #include "plugin/hdHipr/particleField.h"
 
-#include "plugin/hdHipr/instancer.h"
-#include "plugin/hdHipr/renderParam.h"
 #include "plugin/hdHipr/splatCloud.h"
 #include "plugin/hdHipr/unsupported.h"
 
@@ -11,10 +9,9 @@ using namespace hdhipr;
 
 namespace {
 
-constexpr HdDirtyBits objectBits =
+/// Splats have no material, and no light shines on them.
+constexpr HdDirtyBits cloudBits =
     HdChangeTracker::DirtyVisibility | HdChangeTracker::DirtyPrimID | HdChangeTracker::DirtyRenderTag;
-constexpr HdDirtyBits instanceBits =
-    HdChangeTracker::DirtyTransform | HdChangeTracker::DirtyInstancer | HdChangeTracker::DirtyInstanceIndex;
 /// Hosts have no bit for any one array of a cloud.
 constexpr HdDirtyBits valueBits = HdChangeTracker::DirtyPrimvar | HdChangeTracker::DirtyPoints;
 
@@ -22,11 +19,10 @@ constexpr HdDirtyBits valueBits = HdChangeTracker::DirtyPrimvar | HdChangeTracke
 
 HdHiprParticleField::HdHiprParticleField(SdfPath const& id, SdfPath const& instancerId,
                                          HdHiprRenderParam& param)
-    : RprimBase(id, instancerId), _splats(param.newId<hipr::SplatsId>()),
-      _object(param.newId<hipr::ObjectId>()) {}
+    : ObjectPrim(id, instancerId, param), _splats(param.newId<hipr::SplatsId>()) {}
 
 HdDirtyBits HdHiprParticleField::GetInitialDirtyBitsMask() const {
-    return HdChangeTracker::InitRepr | objectBits | instanceBits | HdChangeTracker::DirtyPrimvar;
+    return HdChangeTracker::InitRepr | cloudBits | instanceBits | HdChangeTracker::DirtyPrimvar;
 }
 
 TfTokenVector const& HdHiprParticleField::GetBuiltinPrimvarNames() const {
@@ -43,7 +39,7 @@ HdDirtyBits HdHiprParticleField::_PropagateDirtyBits(HdDirtyBits bits) const {
 
 void HdHiprParticleField::Finalize(HdRenderParam* renderParam) {
     auto& param = static_cast<HdHiprRenderParam&>(*renderParam);
-    param.removeObject(_object);
+    removeObject(param);
     param.edit().removeSplats(_splats);
     HdRprim::Finalize(renderParam);
 }
@@ -51,22 +47,18 @@ void HdHiprParticleField::Finalize(HdRenderParam* renderParam) {
 void HdHiprParticleField::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdDirtyBits* dirtyBits,
                                TfToken const&) {
     auto& param = static_cast<HdHiprRenderParam&>(*renderParam);
-    syncInstancer(delegate, dirtyBits);
-    const HdDirtyBits bits = *dirtyBits;
-    if (bits & HdChangeTracker::DirtyVisibility) {
-        _UpdateVisibility(delegate, dirtyBits);
-    }
+    const HdDirtyBits bits = syncBase(delegate, dirtyBits);
     if (bits & valueBits) {
         param.edit().setSplats(_splats, readSplatCloud(*delegate, GetId()));
     }
-    if (bits & objectBits) {
-        sendObject(delegate, param);
+    if (bits & cloudBits) {
+        sendObject(*delegate, param);
     }
     // Last: UsdImaging hands out values once, and asking for samples of them counts.
     if (bits & (instanceBits | valueBits)) {
         const Sampling sampling = param.sampling();
         if (bits & instanceBits) {
-            param.edit().setInstances(_object, readInstances(*delegate, GetId(), GetInstancerId(), sampling));
+            sendInstances(standingAt(*delegate, sampling), param);
         }
         if (sampling.open()) {
             warnOfMotion(*delegate, GetId(), SplatTokens().positions);
@@ -75,22 +67,8 @@ void HdHiprParticleField::Sync(HdSceneDelegate* delegate, HdRenderParam* renderP
     *dirtyBits = HdChangeTracker::Clean;
 }
 
-void HdHiprParticleField::sendObject(HdSceneDelegate* delegate, HdHiprRenderParam& param) {
-    ObjectState state;
-    state.path = GetId();
-    state.renderTag = delegate->GetRenderTag(GetId());
-    state.desc.name = GetId().GetString();
-    state.desc.splats = _splats;
-    state.desc.visible = IsVisible();
-    state.desc.primId = GetPrimId();
-    param.setObject(_object, state);
-    _synced = true;
-}
-
-void HdHiprParticleField::renderTagChanged(HdSceneDelegate* delegate, HdRenderParam* renderParam) {
-    if (_synced) {
-        sendObject(delegate, static_cast<HdHiprRenderParam&>(*renderParam));
-    }
+void HdHiprParticleField::describe(HdSceneDelegate&, HdHiprRenderParam&, hipr::ObjectDesc& desc) {
+    desc.splats = _splats;
 }
 
 PXR_NAMESPACE_CLOSE_SCOPE

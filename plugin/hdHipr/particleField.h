@@ -2,16 +2,14 @@
 /// HdHiprParticleField: one cloud of Gaussian splats and all its instances.
 #pragma once
 
-#include "plugin/hdHipr/compat.h"
+#include "plugin/hdHipr/objectPrim.h"
 #include "renderer/api/scene.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
 
-class HdHiprRenderParam;
-
 /// The Rprim that UsdVol's ParticleField3DGaussianSplat becomes. A moved or hidden cloud sends transforms or
 /// visibility; changed values send the cloud again, which the renderer compares with the one it has.
-class HdHiprParticleField final : public hdhipr::RprimBase<HdRprim> {
+class HdHiprParticleField final : public hdhipr::ObjectPrim<HdRprim> {
 public:
     HdHiprParticleField(SdfPath const& id, SdfPath const& instancerId, HdHiprRenderParam& param);
 
@@ -24,14 +22,10 @@ public:
 protected:
     void _InitRepr(TfToken const& reprToken, HdDirtyBits* dirtyBits) override;
     HdDirtyBits _PropagateDirtyBits(HdDirtyBits bits) const override;
-    void renderTagChanged(HdSceneDelegate* delegate, HdRenderParam* renderParam) override;
+    void describe(HdSceneDelegate& delegate, HdHiprRenderParam& param, hipr::ObjectDesc& desc) override;
 
 private:
-    void sendObject(HdSceneDelegate* delegate, HdHiprRenderParam& param);
-
     hipr::SplatsId _splats;
-    hipr::ObjectId _object;
-    bool _synced = false;
 };
 
 PXR_NAMESPACE_CLOSE_SCOPE

@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "plugin/hdHipr/compat.h"
-#include "plugin/hdHipr/instancer.h"
 #include "plugin/hdHipr/motion.h"
+#include "plugin/hdHipr/objectPrim.h"
 #include "plugin/hdHipr/primvars.h"
-#include "plugin/hdHipr/renderParam.h"
 #include "plugin/hdHipr/velocity.h"
 #include "pxr/imaging/hd/tokens.h"
 #include "renderer/api/mesh.h"
@@ -20,11 +18,13 @@ namespace hdhipr {
 
 /// An Rprim with one geometry and one object. A change of any part of its shape reads all of it again; a
 /// moved or hidden prim sends transforms or visibility.
-template <class Base> class ShapePrim : public RprimBase<Base> {
+template <class Base> class ShapePrim : public ObjectPrim<Base> {
+    using ObjectPrim<Base>::objectBits;
+    using ObjectPrim<Base>::instanceBits;
+
 public:
     ShapePrim(SdfPath const& id, SdfPath const& instancerId, HdHiprRenderParam& param)
-        : RprimBase<Base>(id, instancerId), _geometry(param.newId<hipr::GeometryId>()),
-          _object(param.newId<hipr::ObjectId>()) {}
+        : ObjectPrim<Base>(id, instancerId, param), _geometry(param.newId<hipr::GeometryId>()) {}
 
     HdDirtyBits GetInitialDirtyBitsMask() const final {
         return HdChangeTracker::InitRepr | objectBits | instanceBits | shapeBits;
@@ -32,7 +32,7 @@ public:
 
     void Finalize(HdRenderParam* renderParam) final {
         auto& param = static_cast<HdHiprRenderParam&>(*renderParam);
-        param.removeObject(_object);
+        this->removeObject(param);
         param.edit().removeGeometry(_geometry);
         Base::Finalize(renderParam);
     }
@@ -40,25 +40,18 @@ public:
     void Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdDirtyBits* dirtyBits,
               TfToken const&) final {
         auto& param = static_cast<HdHiprRenderParam&>(*renderParam);
-        this->syncInstancer(delegate, dirtyBits);
-        const HdDirtyBits bits = *dirtyBits;
-        if (bits & HdChangeTracker::DirtyVisibility) {
-            this->_UpdateVisibility(delegate, dirtyBits);
-        }
-        if (bits & HdChangeTracker::DirtyMaterialId) {
-            this->updateMaterialId(delegate, delegate->GetMaterialId(this->GetId()));
-        }
+        const HdDirtyBits bits = this->syncBase(delegate, dirtyBits);
         const Sampling sampling = param.sampling();
         if (bits & shapeBits) {
             param.edit().setGeometry(_geometry, shapeWithMotion(*delegate, sampling));
         }
-        const bool relinked = _links.sync(*delegate, this->GetId(), this->GetInstancerId(), bits);
+        const bool relinked = this->syncLinks(*delegate, bits);
         if (bits & objectBits) {
-            sendObject(delegate, param);
+            this->sendObject(*delegate, param);
         }
         const HdDirtyBits placing = shapePlacesInstances() ? instanceBits | shapeBits : instanceBits;
         if (relinked || (bits & placing)) {
-            param.edit().setInstances(_object, instances(*delegate, sampling));
+            this->sendInstances(instances(*delegate, sampling), param);
         }
         *dirtyBits = HdChangeTracker::Clean;
     }
@@ -70,7 +63,7 @@ protected:
     virtual std::shared_ptr<const hipr::TriangleMesh> shapeOf(VtValue const& points) = 0;
     /// Where the geometry stands; with an open shutter also at other times.
     virtual hipr::InstancesDesc instances(HdSceneDelegate& delegate, Sampling const& sampling) {
-        return readInstances(delegate, this->GetId(), this->GetInstancerId(), sampling);
+        return this->standingAt(delegate, sampling);
     }
     /// Whether instances() depends on the shape.
     virtual bool shapePlacesInstances() const { return false; }
@@ -131,10 +124,9 @@ protected:
         return bits & shapeBits ? bits | shapeBits : bits;
     }
 
-    void renderTagChanged(HdSceneDelegate* delegate, HdRenderParam* renderParam) final {
-        if (_synced) {
-            sendObject(delegate, static_cast<HdHiprRenderParam&>(*renderParam));
-        }
+    void describe(HdSceneDelegate&, HdHiprRenderParam& param, hipr::ObjectDesc& desc) final {
+        desc.geometry = _geometry;
+        desc.materials = {param.materialId(this->GetMaterialId())};
     }
 
 private:
@@ -152,35 +144,12 @@ private:
                          [this](VtValue const& points) { return shapeOf(points); });
     }
 
-    static constexpr HdDirtyBits objectBits =
-        HdChangeTracker::DirtyVisibility | HdChangeTracker::DirtyMaterialId | HdChangeTracker::DirtyPrimID |
-        HdChangeTracker::DirtyRenderTag | HdChangeTracker::DirtyCategories;
-    static constexpr HdDirtyBits instanceBits = HdChangeTracker::DirtyTransform |
-                                                HdChangeTracker::DirtyInstancer |
-                                                HdChangeTracker::DirtyInstanceIndex;
     static constexpr HdDirtyBits shapeBits =
         HdChangeTracker::DirtyTopology | HdChangeTracker::DirtyPoints | HdChangeTracker::DirtyNormals |
         HdChangeTracker::DirtyWidths | HdChangeTracker::DirtyPrimvar | HdChangeTracker::DirtyDisplayStyle;
 
-    void sendObject(HdSceneDelegate* delegate, HdHiprRenderParam& param) {
-        ObjectState state;
-        state.path = this->GetId();
-        state.renderTag = delegate->GetRenderTag(this->GetId());
-        state.desc.name = this->GetId().GetString();
-        state.desc.geometry = _geometry;
-        state.desc.visible = this->IsVisible();
-        state.desc.primId = this->GetPrimId();
-        state.desc.categories = _links.names();
-        state.desc.materials = {param.materialId(this->GetMaterialId())};
-        param.setObject(_object, state);
-        _synced = true;
-    }
-
     hipr::GeometryId _geometry;
-    hipr::ObjectId _object;
     DescriptorChoice _descriptorChoice;
-    LinkState _links;
-    bool _synced = false;
     PointVelocities _velocities;
     std::vector<glm::vec3> _points; ///< at the frame, where there are velocities
 };

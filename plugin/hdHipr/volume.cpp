@@ -5,19 +5,12 @@
 #include "plugin/hdHipr/field.h"
 #include "plugin/hdHipr/messages.h"
 #include "plugin/hdHipr/primvars.h"
-#include "plugin/hdHipr/renderParam.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
 
 using namespace hdhipr;
 
 namespace {
-
-constexpr HdDirtyBits objectBits = HdChangeTracker::DirtyVisibility | HdChangeTracker::DirtyMaterialId |
-                                   HdChangeTracker::DirtyPrimID | HdChangeTracker::DirtyRenderTag |
-                                   HdChangeTracker::DirtyCategories;
-constexpr HdDirtyBits instanceBits =
-    HdChangeTracker::DirtyTransform | HdChangeTracker::DirtyInstancer | HdChangeTracker::DirtyInstanceIndex;
 
 /// The field of the description that is meant by a name in `field:<name>`, or null.
 hipr::FieldId* fieldOf(hipr::VolumeDesc& desc, std::string const& name) {
@@ -36,8 +29,7 @@ hipr::FieldId* fieldOf(hipr::VolumeDesc& desc, std::string const& name) {
 } // namespace
 
 HdHiprVolume::HdHiprVolume(SdfPath const& id, SdfPath const& instancerId, HdHiprRenderParam& param)
-    : RprimBase(id, instancerId), _volume(param.newId<hipr::VolumeId>()),
-      _object(param.newId<hipr::ObjectId>()) {}
+    : ObjectPrim(id, instancerId, param), _volume(param.newId<hipr::VolumeId>()) {}
 
 HdDirtyBits HdHiprVolume::GetInitialDirtyBitsMask() const {
     return HdChangeTracker::InitRepr | objectBits | instanceBits | HdChangeTracker::DirtyVolumeField |
@@ -53,7 +45,7 @@ HdDirtyBits HdHiprVolume::_PropagateDirtyBits(HdDirtyBits bits) const {
 
 void HdHiprVolume::Finalize(HdRenderParam* renderParam) {
     auto& param = static_cast<HdHiprRenderParam&>(*renderParam);
-    param.removeObject(_object);
+    removeObject(param);
     param.edit().removeVolume(_volume);
     HdVolume::Finalize(renderParam);
 }
@@ -61,14 +53,7 @@ void HdHiprVolume::Finalize(HdRenderParam* renderParam) {
 void HdHiprVolume::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdDirtyBits* dirtyBits,
                         TfToken const&) {
     auto& param = static_cast<HdHiprRenderParam&>(*renderParam);
-    syncInstancer(delegate, dirtyBits);
-    const HdDirtyBits bits = *dirtyBits;
-    if (bits & HdChangeTracker::DirtyVisibility) {
-        _UpdateVisibility(delegate, dirtyBits);
-    }
-    if (bits & HdChangeTracker::DirtyMaterialId) {
-        updateMaterialId(delegate, delegate->GetMaterialId(GetId()));
-    }
+    const HdDirtyBits bits = syncBase(delegate, dirtyBits);
     if (bits & HdChangeTracker::DirtyVolumeField) {
         readFields(delegate, param);
     }
@@ -78,13 +63,12 @@ void HdHiprVolume::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, H
     if (bits & (HdChangeTracker::DirtyVolumeField | HdChangeTracker::DirtyPrimvar)) {
         param.edit().setVolume(_volume, _desc);
     }
-    const bool relinked = _links.sync(*delegate, GetId(), GetInstancerId(), bits);
+    const bool relinked = syncLinks(*delegate, bits);
     if (bits & objectBits) {
-        sendObject(delegate, param);
+        sendObject(*delegate, param);
     }
     if (relinked || (bits & instanceBits)) {
-        param.edit().setInstances(_object,
-                                  readInstances(*delegate, GetId(), GetInstancerId(), param.sampling()));
+        sendInstances(standingAt(*delegate, param.sampling()), param);
     }
     *dirtyBits = HdChangeTracker::Clean;
 }
@@ -150,24 +134,9 @@ void HdHiprVolume::readLook(HdSceneDelegate* delegate) {
     _desc.look = look;
 }
 
-void HdHiprVolume::sendObject(HdSceneDelegate* delegate, HdHiprRenderParam& param) {
-    ObjectState state;
-    state.path = GetId();
-    state.renderTag = delegate->GetRenderTag(GetId());
-    state.desc.name = GetId().GetString();
-    state.desc.volume = _volume;
-    state.desc.visible = IsVisible();
-    state.desc.primId = GetPrimId();
-    state.desc.categories = _links.names();
-    state.desc.materials = {param.materialId(GetMaterialId())};
-    param.setObject(_object, state);
-    _synced = true;
-}
-
-void HdHiprVolume::renderTagChanged(HdSceneDelegate* delegate, HdRenderParam* renderParam) {
-    if (_synced) {
-        sendObject(delegate, static_cast<HdHiprRenderParam&>(*renderParam));
-    }
+void HdHiprVolume::describe(HdSceneDelegate&, HdHiprRenderParam& param, hipr::ObjectDesc& desc) {
+    desc.volume = _volume;
+    desc.materials = {param.materialId(GetMaterialId())};
 }
 
 PXR_NAMESPACE_CLOSE_SCOPE
