@@ -1,6 +1,6 @@
 #include "plugin/hdHipr/assets.h"
 
-#include "plugin/hdHipr/compat.h"
+#include "plugin/hdHipr/compatAssets.h"
 #include "pxr/usd/sdf/assetPath.h"
 
 PXR_NAMESPACE_OPEN_SCOPE

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <tuple>
 
-#include "plugin/hdHipr/compat.h"
+#include "plugin/hdHipr/compatAssets.h"
 #include "plugin/hdHipr/messages.h"
 
 PXR_NAMESPACE_OPEN_SCOPE

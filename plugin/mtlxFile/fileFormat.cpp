@@ -1,6 +1,6 @@
 #include "plugin/mtlxFile/fileFormat.h"
 
-#include "plugin/hdHipr/compat.h"
+#include "plugin/hdHipr/compatAssets.h"
 #include "plugin/mtlxFile/layer.h"
 #include "pxr/base/tf/diagnostic.h"
 #include "pxr/base/tf/registryManager.h"

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "plugin/hdHipr/compat.h"
+#include "plugin/hdHipr/compatAssets.h"
 #include "plugin/usdSplat/splatLayer.h"
 #include "pxr/base/tf/diagnostic.h"
 #include "pxr/base/tf/pathUtils.h"
