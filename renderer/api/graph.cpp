@@ -1,6 +1,7 @@
 #include "renderer/api/graph.h"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 
 #include "shaders/shared/graph_value.h"
@@ -41,6 +42,19 @@ std::optional<GraphValue> unchanged(uint32_t op, const GraphValue& a, const Grap
     }
 }
 
+/// Equal nodes have equal ones.
+size_t hashOf(const GraphNode& node) {
+    size_t hash = std::hash<uint32_t>()(node.op);
+    const auto add = [&](size_t part) { hash = hash * 31 + part; };
+    add(node.immediate);
+    for (const GraphValue& operand : node.operands) {
+        add(operand.node);
+        for (int i = 0; i < 4; ++i)
+            add(std::hash<float>()(operand.constant[i]));
+    }
+    return hash;
+}
+
 } // namespace
 
 uint32_t graphOperandCount(uint32_t op) {
@@ -76,10 +90,16 @@ uint32_t graphOperandCount(uint32_t op) {
 }
 
 GraphValue GraphBuilder::keep(const GraphNode& node) {
-    const auto known = std::find(_graph.nodes.begin(), _graph.nodes.end(), node);
+    const size_t hash = hashOf(node);
+    const auto [first, end] = _known.equal_range(hash);
+    const auto known =
+        std::find_if(first, end, [&](const auto& k) { return _graph.nodes[k.second] == node; });
     GraphValue value;
-    value.node = uint32_t(known - _graph.nodes.begin());
-    if (known == _graph.nodes.end()) _graph.nodes.push_back(node);
+    value.node = known == end ? uint32_t(_graph.nodes.size()) : known->second;
+    if (known == end) {
+        _known.emplace(hash, value.node);
+        _graph.nodes.push_back(node);
+    }
     return value;
 }
 

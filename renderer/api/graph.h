@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <tuple>
+#include <unordered_map>
 #include <vector>
 
 #include "renderer/api/material_input.h"
@@ -79,6 +80,7 @@ private:
     GraphValue keep(const GraphNode& node);
 
     MaterialGraph _graph;
+    std::unordered_multimap<size_t, uint32_t> _known; ///< nodes by their hash
 };
 
 } // namespace hipr

@@ -120,6 +120,10 @@ struct SplatPass::Impl {
 
     bool doing(int what) const { return work == what; }
     void need(int what) { work = std::max(work, what); }
+    void noteMoved(uint32_t instance) {
+        moved.push_back(instance);
+        need(isFlat(mode()) ? Everything : Placements);
+    }
     SplatMode mode() const { return wanted == SplatMode::Automatic ? SplatMode::Higs8Carry : wanted; }
     bool movedIntoSight() const;
     void place();
@@ -332,11 +336,16 @@ void SplatPass::setInstances(std::vector<SplatInstance> instances) {
         d.need(Everything);
     else
         for (uint32_t i = 0; i < instances.size(); ++i) {
-            if (same(instances[i], d.instances[i])) continue;
-            d.moved.push_back(i);
-            d.need(isFlat(d.mode()) ? Everything : Placements);
+            if (!same(instances[i], d.instances[i])) d.noteMoved(i);
         }
     d.instances = std::move(instances);
+}
+
+void SplatPass::place(uint32_t instance, const glm::mat4x3& objectToWorld) {
+    SplatInstance& placed = _impl->instances[instance];
+    if (placed.objectToWorld == objectToWorld) return;
+    placed.objectToWorld = objectToWorld;
+    _impl->noteMoved(instance);
 }
 
 void SplatPass::setMode(SplatMode mode) {

@@ -97,6 +97,8 @@ public:
     void setView(const SplatView& view);
     /// Of splats at equal depths those of earlier instances are in front, and those of smaller index.
     void setInstances(std::vector<SplatInstance> instances);
+    /// Moves one of the instances.
+    void place(uint32_t instance, const glm::mat4x3& objectToWorld);
     void setMode(SplatMode mode);
     /// The mode render() uses: never Automatic.
     SplatMode mode() const;

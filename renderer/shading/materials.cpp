@@ -51,6 +51,7 @@ struct MaterialTable::Impl {
         ResolvedMaterial inputs;
         uint32_t index;
         RowSlot row;
+        uint32_t features = 0; ///< SCENE_HAS_*
         bool nonOpaque = false;
         std::vector<char> program; ///< what the row holds behind its constants
         uint64_t written = 0;      ///< where it was written; 0: not yet
@@ -160,11 +161,13 @@ void MaterialTable::set(MaterialId id, const MaterialDesc& desc) {
             _impl->freeIndices.pop_back();
         }
         const RowSlot row = _impl->rows.take(rowBytes(inputs));
-        _impl->materials[id] = {std::move(inputs), index, row, false, {}, 0, 0.f};
+        _impl->materials[id] = {std::move(inputs), index, row, 0, false, {}, 0, 0.f};
     }
-    _impl->materials[id].cryptomatte = cryptomatteId(desc.name);
+    Impl::Material& material = _impl->materials[id];
+    material.features = featuresOf(material.inputs);
+    material.cryptomatte = cryptomatteId(desc.name);
     _impl->dirty.insert(id);
-    if (isEmissive(_impl->materials[id].inputs))
+    if (isEmissive(material.inputs))
         _impl->emissive.insert(id);
     else
         _impl->emissive.erase(id);
@@ -211,7 +214,7 @@ bool MaterialTable::emissive(MaterialId id) const {
 uint32_t MaterialTable::features() const {
     uint32_t features = 0;
     for (const auto& [id, material] : _impl->materials)
-        features |= featuresOf(material.inputs);
+        features |= material.features;
     return features;
 }
 

@@ -156,13 +156,13 @@ bool SplatLayer::drawFrame(const std::atomic<bool>& cancel) {
 bool SplatLayer::drawMoment(const std::atomic<bool>& cancel) {
     _elsewhere = true;
     const float time = SplatMotion::timeOf(_momentsDrawn, _moments);
-    std::vector<SplatInstance> instances = _instances;
-    for (size_t i = 0; i < instances.size(); ++i)
-        instances[i].objectToWorld = _motion.placement(i, time);
-    SplatView view = _view;
-    view.camera = _motion.camera(time);
-    _pass->setInstances(std::move(instances));
-    if (_motion.cameraMoves()) _pass->setView(view);
+    for (uint32_t i = 0; i < _instances.size(); ++i)
+        _pass->place(i, _motion.placement(i, time));
+    if (_motion.cameraMoves()) {
+        SplatView view = _view;
+        view.camera = _motion.camera(time);
+        _pass->setView(view);
+    }
     if (!_pass->render(&cancel)) return false;
     _mean.add(fetch(), pixelCount());
     if (++_momentsDrawn == _moments) prepare();
