@@ -10,6 +10,7 @@ PXR_NAMESPACE_OPEN_SCOPE
 
 namespace dirtybits {
 
+using Bits = HdChangeTracker;
 using hipr::Change;
 using Apply = std::function<void(World&, bool make)>;
 using Edit = std::function<void(TestScene::Prim&, bool make)>;
@@ -34,6 +35,20 @@ inline Apply sprim(const char* path, HdDirtyBits bits, Edit edit = noEdit) {
         edit(world.prim(path), make);
         world.tracker().MarkSprimDirty(SdfPath(path), bits);
     };
+}
+
+/// Gives a prim another id.
+inline Apply setPrimId(const char* path, int id) {
+    return [=](World& world, bool make) {
+        HdRprim const* rprim = world.host().index().GetRprim(SdfPath(path));
+        const_cast<HdRprim*>(rprim)->SetPrimId(make ? id : 0);
+        world.tracker().MarkRprimDirty(SdfPath(path), Bits::DirtyPrimID);
+    };
+}
+
+/// A bit of a prim that means nothing.
+inline Row nothing(const char* path, const char* bit, HdDirtyBits bits, const char* why) {
+    return {bit, why, "", rprim(path, bits), {}};
 }
 
 /// An edit that moves a prim.

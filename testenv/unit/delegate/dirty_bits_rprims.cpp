@@ -7,8 +7,6 @@ namespace dirtybits {
 
 namespace {
 
-using Bits = HdChangeTracker;
-
 const Elements geometry = {{Target::Square, Change::Geometry}}, primvar = {{Target::Square, Change::Primvar}},
                moved = {{Target::Square, Change::Transform, 0}},
                visibility = {{Target::Square, Change::Visibility}},
@@ -92,12 +90,6 @@ Apply manySquare(HdDirtyBits bits, Edit edit) {
         edit(world.prim("/many"), make);
         world.tracker().MarkRprimDirty(SdfPath("/many.square"), bits);
     };
-}
-
-void setPrimId(World& world, bool make) {
-    HdRprim const* rprim = world.host().index().GetRprim(SdfPath("/square"));
-    const_cast<HdRprim*>(rprim)->SetPrimId(make ? 1234 : 0);
-    world.tracker().MarkRprimDirty(SdfPath("/square"), Bits::DirtyPrimID);
 }
 
 void computeElsewhere(World& world, bool make) {
@@ -219,8 +211,8 @@ std::vector<Row> placeRows() {
          "another material is bound",
          rprim("/square", Bits::DirtyMaterialId, bind),
          {{Target::Square, Change::Material}}},
-        {"HdChangeTracker::DirtyPrimID", "the prim id, for the AOV", "Hydra gives out ids anew", setPrimId,
-         primvar},
+        {"HdChangeTracker::DirtyPrimID", "the prim id, for the AOV", "Hydra gives out ids anew",
+         setPrimId("/square", 1234), primvar},
         {"HdChangeTracker::DirtyCategories",
          "the collections of lights that it is in",
          "it comes into one",

@@ -6,8 +6,6 @@ namespace dirtybits {
 
 namespace {
 
-using Bits = HdChangeTracker;
-
 const VtVec3fArray bent = {{-0.5f, -0.2f, 0}, {0, 0.2f, 0}, {0.5f, -0.2f, 0}},
                    straight = {{-0.5f, 0, 0}, {0, 0, 0}, {0.5f, 0, 0}};
 const VtVec3fArray pair = {{-0.25f, 0, 0}, {0.25f, 0, 0}}, apart = {{-0.25f, 0, 0}, {0.25f, 0.3f, 0}};

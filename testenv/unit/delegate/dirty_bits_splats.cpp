@@ -6,8 +6,6 @@ namespace dirtybits {
 
 namespace {
 
-using Bits = HdChangeTracker;
-
 const VtVec3fArray before = {{-0.25f, 0, 0}, {0.25f, 0, 0}}, after = {{-0.25f, 0, 0}, {0.25f, 0.5f, 0}};
 
 void hideSecond(World& world, bool make, HdDirtyBits bits) {
@@ -17,16 +15,6 @@ void hideSecond(World& world, bool make, HdDirtyBits bits) {
 
 Apply hideSecond(HdDirtyBits bits) {
     return [=](World& world, bool make) { hideSecond(world, make, bits); };
-}
-
-void setPrimId(World& world, bool make) {
-    HdRprim const* rprim = world.host().index().GetRprim(SdfPath("/cloud"));
-    const_cast<HdRprim*>(rprim)->SetPrimId(make ? 1235 : 0);
-    world.tracker().MarkRprimDirty(SdfPath("/cloud"), Bits::DirtyPrimID);
-}
-
-Row nothing(const char* bit, HdDirtyBits bits, const char* why) {
-    return {bit, why, "", rprim("/cloud", bits), {}};
 }
 
 } // namespace
@@ -79,18 +67,18 @@ Section particleFieldSection() {
             {"HdChangeTracker::DirtyPrimID",
              "the prim id, for the AOV",
              "Hydra gives out ids anew",
-             setPrimId,
+             setPrimId("/cloud", 1235),
              {{Target::Cloud, Change::Primvar}}},
-            nothing("HdChangeTracker::DirtyMaterialId", Bits::DirtyMaterialId,
+            nothing("/cloud", "HdChangeTracker::DirtyMaterialId", Bits::DirtyMaterialId,
                     "nothing: splats have no material"),
-            nothing("HdChangeTracker::DirtyTopology", Bits::DirtyTopology,
+            nothing("/cloud", "HdChangeTracker::DirtyTopology", Bits::DirtyTopology,
                     "nothing: splats have no topology"),
-            nothing("HdChangeTracker::DirtyDisplayStyle", Bits::DirtyDisplayStyle,
+            nothing("/cloud", "HdChangeTracker::DirtyDisplayStyle", Bits::DirtyDisplayStyle,
                     "nothing: there is one way to draw splats"),
-            nothing("HdChangeTracker::DirtyRepr", Bits::DirtyRepr, "nothing: the same"),
-            nothing("HdChangeTracker::DirtyExtent", Bits::DirtyExtent,
+            nothing("/cloud", "HdChangeTracker::DirtyRepr", Bits::DirtyRepr, "nothing: the same"),
+            nothing("/cloud", "HdChangeTracker::DirtyExtent", Bits::DirtyExtent,
                     "nothing: the renderer bounds what it has got"),
-            nothing("HdChangeTracker::Varying", Bits::Varying,
+            nothing("/cloud", "HdChangeTracker::Varying", Bits::Varying,
                     "nothing: Hydra's own note that the prim changes often"),
             {"HdChangeTracker::AllDirty", "everything; only what differs is a change", "a splat moves",
              rprim("/cloud", Bits::AllDirty, moveOne), geometry},

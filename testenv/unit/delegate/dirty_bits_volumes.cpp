@@ -9,8 +9,6 @@ namespace dirtybits {
 
 namespace {
 
-using Bits = HdChangeTracker;
-
 Apply field(HdDirtyBits bits, Edit edit = noEdit) {
     return [=](World& world, bool make) {
         edit(world.prim("/fog.density"), make);
@@ -30,16 +28,6 @@ void loseField(TestScene::Prim& prim, bool make) {
     prim.fields.clear();
     prim.fields.emplace_back(TfToken(make ? "temperature" : "density"), TfToken("openvdbAsset"),
                              SdfPath("/fog.density"));
-}
-
-void setPrimId(World& world, bool make) {
-    HdRprim const* rprim = world.host().index().GetRprim(SdfPath("/fog"));
-    const_cast<HdRprim*>(rprim)->SetPrimId(make ? 1236 : 0);
-    world.tracker().MarkRprimDirty(SdfPath("/fog"), Bits::DirtyPrimID);
-}
-
-Row nothing(const char* bit, HdDirtyBits bits, const char* why) {
-    return {bit, why, "", rprim("/fog", bits), {}};
 }
 
 } // namespace
@@ -79,7 +67,7 @@ Section volumeSection() {
             {"HdChangeTracker::DirtyPrimID",
              "the prim id, for the AOV",
              "Hydra gives out ids anew",
-             setPrimId,
+             setPrimId("/fog", 1236),
              {{Target::Fog, Change::Primvar}}},
             {"HdChangeTracker::DirtyCategories",
              "the lights' collections that it is in",
@@ -87,12 +75,13 @@ Section volumeSection() {
              rprim("/fog", Bits::DirtyCategories,
                    [](TestScene::Prim& prim, bool make) { prim.categories = categories(make); }),
              {{Target::Fog, Change::Linking}}},
-            nothing("HdChangeTracker::DirtyInstancer", Bits::DirtyInstancer, "transform and instances"),
-            nothing("HdChangeTracker::DirtyInstanceIndex", Bits::DirtyInstanceIndex,
+            nothing("/fog", "HdChangeTracker::DirtyInstancer", Bits::DirtyInstancer,
                     "transform and instances"),
-            nothing("HdChangeTracker::DirtyExtent", Bits::DirtyExtent,
+            nothing("/fog", "HdChangeTracker::DirtyInstanceIndex", Bits::DirtyInstanceIndex,
+                    "transform and instances"),
+            nothing("/fog", "HdChangeTracker::DirtyExtent", Bits::DirtyExtent,
                     "nothing: the renderer bounds what it has got"),
-            nothing("HdChangeTracker::DirtyRepr", Bits::DirtyRepr,
+            nothing("/fog", "HdChangeTracker::DirtyRepr", Bits::DirtyRepr,
                     "nothing: there is one way to draw volumes"),
             {"HdChangeTracker::AllDirty", "everything; only what differs is a change", "it becomes denser",
              rprim("/fog", Bits::AllDirty, denser), material},
