@@ -118,6 +118,9 @@ TEST_F(RecorderPictures, MetadataTellsHowThePictureWasMade) {
     EXPECT_EQ(spec.get_int_attribute("hipr:samples"), 4);
     EXPECT_GE(spec.get_float_attribute("hipr:renderTime"), 0.f);
     EXPECT_THAT(spec.get_string_attribute("hipr:settings").c_str(), HasSubstr("convergedSamplesPerPixel=4"));
+    if (rendererUnderTest() == "HiPR") {
+        EXPECT_THAT(spec.get_string_attribute("hipr:settings").c_str(), HasSubstr("enableInteractive=0"));
+    }
 
     float matrix[16] = {};
     ASSERT_TRUE(spec.getattribute("worldToCamera", OIIO::TypeMatrix, matrix));
@@ -259,6 +262,9 @@ TEST_F(RecorderPictures, TimeLimitEndsAFrameEarly) {
     EXPECT_FALSE(stats["frames"][0]["converged"]);
     EXPECT_GE(stats["frames"][0]["seconds"], 1.0);
     EXPECT_GE(stats["frames"][0]["samples"], 1);
+    if (rendererUnderTest() == "HiPR") {
+        EXPECT_THAT(std::string(stats["settings"]), HasSubstr("enableInteractive=1")) << "ends in time";
+    }
     EXPECT_EQ(colourAt(ImageFile(file("a.exr")), redSpot), "red");
 }
 
