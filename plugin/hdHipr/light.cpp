@@ -47,19 +47,6 @@ hipr::DomeFormat domeFormat(SdfPath const& id, TfToken const& format) {
     return hipr::DomeFormat::LatLong;
 }
 
-/// The group by which light path expressions know a light, under the names that hosts write.
-std::string lightGroup(LightParams const& params) {
-    for (const char* name : {"hipr:lightGroup", "karma:light:lpetag", "ri:light:lightGroup"}) {
-        const VtValue value = lightParam(params.delegate, params.id, TfToken(name));
-        const std::string group = value.IsHolding<TfToken>() ? value.UncheckedGet<TfToken>().GetString()
-                                                             : value.GetWithDefault<std::string>();
-        if (!group.empty()) {
-            return group;
-        }
-    }
-    return {};
-}
-
 } // namespace
 
 bool HdHiprLight::handles(TfToken const& type) {
@@ -158,47 +145,18 @@ void HdHiprLight::syncParams(HdSceneDelegate* delegate) {
     _desc.domeFormat = domeFormat(GetId(), params.get("texture:format", TfToken("automatic")));
     _desc.thin = (_desc.kind == hipr::LightKind::Sphere && params.get("treatAsPoint", false)) ||
                  (_desc.kind == hipr::LightKind::Cylinder && params.get("treatAsLine", false));
-    _desc.shaping = readShaping(delegate);
-    _desc.shadow = readShadow(delegate);
-    _desc.group = lightGroup(params);
+    _desc.shaping = readShaping(params);
+    _desc.shadow = readShadow(params);
+    _desc.group = readLightGroup(params);
 }
 
 void HdHiprLight::syncLinks(HdSceneDelegate* delegate, HdDirtyBits bits) {
-    const auto link = [&](const char* name) {
-        const VtValue id = delegate->GetLightParamValue(GetId(), TfToken(name));
-        return id.IsHolding<TfToken>() ? id.UncheckedGet<TfToken>().GetString() : std::string();
-    };
-    _desc.lightLink = link("lightLink");
-    _desc.shadowLink = link("shadowLink");
+    const LightParams params{delegate, GetId()};
+    _desc.lightLink = readLink(params, "lightLink");
+    _desc.shadowLink = readLink(params, "shadowLink");
     if ((bits & DirtyCollection) && !(_desc.lightLink.empty() && _desc.shadowLink.empty())) {
         collectionsChanged(delegate->GetRenderIndex());
     }
-}
-
-hipr::LightShadow HdHiprLight::readShadow(HdSceneDelegate* delegate) const {
-    const LightParams params{delegate, GetId()};
-    hipr::LightShadow shadow;
-    shadow.enable = params.get("shadow:enable", true);
-    shadow.color = toGlm(params.get("shadow:color", GfVec3f(0.f)));
-    shadow.distance = params.get("shadow:distance", -1.f);
-    shadow.falloff = params.get("shadow:falloff", -1.f);
-    shadow.falloffGamma = params.get("shadow:falloffGamma", 1.f);
-    return shadow;
-}
-
-/// The cone of a light without ShapingAPI is the whole sphere; that of one with it is 90 degrees by default,
-/// which Hydra tells.
-hipr::LightShaping HdHiprLight::readShaping(HdSceneDelegate* delegate) const {
-    const LightParams params{delegate, GetId()};
-    hipr::LightShaping shaping;
-    shaping.focus = params.get("shaping:focus", 0.f);
-    shaping.focusTint = toGlm(params.get("shaping:focusTint", GfVec3f(0.f)));
-    shaping.coneAngle = params.get("shaping:cone:angle", 180.f);
-    shaping.coneSoftness = params.get("shaping:cone:softness", 0.f);
-    shaping.iesFile = assetPath(lightParam(delegate, GetId(), TfToken("shaping:ies:file")));
-    shaping.iesAngleScale = params.get("shaping:ies:angleScale", 0.f);
-    shaping.iesNormalize = params.get("shaping:ies:normalize", false);
-    return shaping;
 }
 
 void HdHiprLight::reportUnsupported(HdSceneDelegate* delegate) const {

@@ -22,8 +22,6 @@ public:
 private:
     void syncParams(HdSceneDelegate* delegate);
     void syncLinks(HdSceneDelegate* delegate, HdDirtyBits bits);
-    hipr::LightShaping readShaping(HdSceneDelegate* delegate) const;
-    hipr::LightShadow readShadow(HdSceneDelegate* delegate) const;
     void reportUnsupported(HdSceneDelegate* delegate) const;
     void send(HdSceneDelegate* delegate, HdHiprRenderParam& param);
     bool isCameraLight(HdSceneDelegate* delegate) const;

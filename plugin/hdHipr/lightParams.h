@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plugin/hdHipr/compat.h"
+#include "renderer/api/light.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
 
@@ -18,6 +19,13 @@ struct LightParams {
         return value.IsHolding<T>() ? value.template UncheckedGet<T>() : fallback;
     }
 };
+
+hipr::LightShaping readShaping(LightParams const& params);
+hipr::LightShadow readShadow(LightParams const& params);
+/// The category of objects that a link, `lightLink` or `shadowLink`, means; empty: all.
+std::string readLink(LightParams const& params, const char* name);
+/// The group by which light path expressions know a light, under the names that hosts write.
+std::string readLightGroup(LightParams const& params);
 
 } // namespace hdhipr
 

@@ -174,7 +174,12 @@ void HdHiprMesh::describe(HdSceneDelegate& delegate, HdHiprRenderParam& param, h
     desc.lightGroup = _lightGroup;
     desc.cull = isCards(_desc) ? hipr::CullStyle::BackAndForLight : toCullStyle(GetCullStyle(&delegate));
     _light = meshLight(&delegate, GetId());
-    if (!_light) {
+    if (_light) {
+        desc.light = _light->controls;
+        if (_lightGroup.empty()) {
+            desc.lightGroup = _light->group;
+        }
+    } else {
         stopShining(param);
     }
     SdfPathVector paths = {GetMaterialId()};

@@ -94,6 +94,17 @@ MaterialDesc ownColours() {
     return desc;
 }
 
+std::shared_ptr<const hipr::SurfaceLight> controlsOf(LightParams const& params) {
+    hipr::SurfaceLight controls;
+    controls.diffuse = params.get("diffuse", 1.f);
+    controls.specular = params.get("specular", 1.f);
+    controls.shaping = readShaping(params);
+    controls.shadow = readShadow(params);
+    controls.lightLink = readLink(params, "lightLink");
+    controls.shadowLink = readLink(params, "shadowLink");
+    return std::make_shared<const hipr::SurfaceLight>(std::move(controls));
+}
+
 } // namespace
 
 std::optional<MeshLight> meshLight(HdSceneDelegate* delegate, SdfPath const& id) {
@@ -118,6 +129,8 @@ std::optional<MeshLight> meshLight(HdSceneDelegate* delegate, SdfPath const& id)
         light.radiance *= hipr::blackbodyColor(params.get("colorTemperature", 6500.f));
     }
     light.radiance = glm::max(light.radiance, glm::vec3(0.f));
+    light.group = readLightGroup(params);
+    light.controls = controlsOf(params);
     return light;
 }
 

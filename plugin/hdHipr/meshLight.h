@@ -5,6 +5,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -23,9 +24,8 @@ struct MeshLight {
     Sync sync = Sync::GlowTintsLight;
     glm::vec3 radiance{1.f}; ///< nits; with `normalize`, times the area of the mesh
     bool normalize = false;
-    bool operator==(MeshLight const& o) const {
-        return sync == o.sync && radiance == o.radiance && normalize == o.normalize;
-    }
+    std::string group; ///< for light path expressions
+    std::shared_ptr<const hipr::SurfaceLight> controls;
 };
 
 /// The light of a mesh, if it is one.

@@ -82,4 +82,16 @@ struct LightDesc {
     bool operator==(const LightDesc& o) const { return members() == o.members(); }
 };
 
+/// What the light of a surface that emits is beside what its material sends out (UsdLuxMeshLightAPI). The
+/// axis of its shaping is -Z of the object's own space.
+struct SurfaceLight {
+    float diffuse = 1.f, specular = 1.f; ///< multipliers
+    LightShaping shaping;
+    LightShadow shadow;     ///< of others: the surface always hides what is behind it
+    std::string lightLink;  ///< as LightDesc::lightLink
+    std::string shadowLink; ///< as LightDesc::shadowLink
+    auto members() const { return std::tie(diffuse, specular, shaping, shadow, lightLink, shadowLink); }
+    bool operator==(const SurfaceLight& o) const { return members() == o.members(); }
+};
+
 } // namespace hipr

@@ -81,8 +81,8 @@ public:
     /// Applies an edit (and empties it). Samples are discarded when anything changed.
     virtual ChangedSet commit(SceneEdit& edit) = 0;
 
-    /// Reads the files of all textures again, those of lights and displacement too, and discards all samples. Where
-    /// there are no textures, nothing happens.
+    /// Reads the files of all textures (those of lights and displacement too) and IES profiles again, and discards
+    /// all samples. Where there are none, nothing happens.
     virtual ChangedSet reloadTextures() = 0;
 
     /// Each discards all samples if, and only if, the value differs in a way that changes the picture. The set then

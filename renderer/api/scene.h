@@ -32,6 +32,7 @@ struct ObjectDesc {
     std::string asset{}; ///< what Cryptomatte takes it for a part of; empty: of itself
     std::string lightGroup{}; ///< of the light that it emits, for light path expressions; empty: none
     CullStyle cull = CullStyle::Inherit;
+    std::shared_ptr<const SurfaceLight> light{}; ///< of what its triangles emit; null: nothing beside that
 };
 
 /// All placements of one object. The geometry is never copied per instance. An object that was never given

@@ -94,28 +94,39 @@ ChangedSet GpuScene::apply(const std::vector<SceneEdit::Op>& ops) {
     return changed;
 }
 
-/// Whoever shows a texture lets go of it, so that all are freed, and asks for it again.
+/// Hands all lights to the table, or takes them from it.
+void GpuScene::showLights(bool show) {
+    for (const auto& [id, desc] : _lightDescs) {
+        if (show)
+            _lights.set(id, desc, groupOf(desc));
+        else
+            _lights.remove(id);
+    }
+}
+
+/// Whoever shows a file lets go of it, so that all are freed, and asks for it again.
 ChangedSet GpuScene::reloadTextures() {
     ChangedSet changed;
     for (const auto& [id, desc] : _materialDescs) {
         _materials.set(id, MaterialDesc());
         _displacement.removeMaterial(id);
     }
-    for (const auto& [id, desc] : _lightDescs)
-        _lights.remove(id);
+    showLights(false);
     _displacement.update(_geometries, _objects, changed);
-    const bool any = _textures.commit() || !changed.empty();
+    const bool profiles = _lights.forgetProfiles();
+    const bool any = _textures.commit() || profiles || !changed.empty();
     for (const auto& [id, desc] : _materialDescs) {
         _materials.set(id, desc);
         _displacement.setMaterial(id, desc);
         const Change emission = _materials.emissive(id) ? Change::Emission : Change::None;
         changed.elements.push_back({id, Change::Material | emission});
     }
-    for (const auto& [id, desc] : _lightDescs) {
-        if (_options.lights) _lights.set(id, desc, groupOf(desc));
-        if (!desc.texture.empty()) changed.elements.push_back({id, Change::Emission});
-    }
+    showLights(_options.lights);
+    for (const auto& [id, desc] : _lightDescs)
+        if (!desc.texture.empty() || !desc.shaping.iesFile.empty())
+            changed.elements.push_back({id, Change::Emission});
     if (!any) return {};
+    _objects.profilesChanged(changed);
     _displacement.update(_geometries, _objects, changed);
     _tracedChanged = true;
     mergeElements(changed);
@@ -225,13 +236,7 @@ uint32_t GpuScene::groupOf(const LightDesc& light) {
 
 bool GpuScene::setOptions(const SceneOptions& options) {
     if (options == _options) return false;
-    if (options.lights != _options.lights)
-        for (const auto& [id, desc] : _lightDescs) {
-            if (options.lights)
-                _lights.set(id, desc, groupOf(desc));
-            else
-                _lights.remove(id);
-        }
+    if (options.lights != _options.lights) showLights(options.lights);
     _options = options;
     _lights.setShadows(options.shadows);
     _textures.setLimit(options.textureBytes);
@@ -284,10 +289,11 @@ void GpuScene::commit() {
 }
 
 // Pictures must not be black for want of a light. Lights that are switched off are there on purpose, though.
-// Meshes that emit are no lights here: viewers light scenes without light prims from the camera, whatever
-// glows in them.
+// Meshes that emit are no lights here, unless they are said to be: viewers light scenes without light prims
+// from the camera, whatever glows in them.
 void GpuScene::commitLights() {
-    if (_camera && (_lightDescs.empty() || !_options.lights)) {
+    const bool none = !_options.lights || (_lightDescs.empty() && !_objects.anyLights());
+    if (_camera && none) {
         _lights.set(CameraLight, cameraLight(*_camera));
         if (!_cameraLightReported)
             _device.messages()(Severity::Info, "", "no light in the scene; lighting it from the camera");

@@ -37,8 +37,8 @@ public:
 
     /// Records edits; nothing reaches the device before commit().
     ChangedSet apply(const std::vector<SceneEdit::Op>& ops);
-    /// Has the files of all textures read again by the next commit(); nothing where there are none. No submission
-    /// may be reading the scene.
+    /// Has the files of all textures and IES profiles read again by the next commit(); nothing where there
+    /// are none. No submission may be reading the scene.
     ChangedSet reloadTextures();
     /// Returns whether the options differ from the ones before.
     bool setOptions(const SceneOptions& options);
@@ -110,6 +110,7 @@ private:
     void apply(const SceneEdit::InstancesOp& op, ChangedSet& changed);
     void apply(const SceneEdit::CameraOp& op, ChangedSet& changed);
     void commitLights();
+    void showLights(bool show);
     uint32_t groupOf(const LightDesc& light);
 
     Device& _device;

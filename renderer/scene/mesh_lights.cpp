@@ -5,6 +5,8 @@
 
 #include <glm/gtc/constants.hpp>
 
+#include "renderer/shading/light_shape.h"
+
 namespace hipr {
 namespace {
 
@@ -31,6 +33,17 @@ std::vector<ObjectTable::Emitter> ObjectTable::emitters(const MaterialTable& mat
             emitters.push_back({id, &*entry.desc, entry.placed.first, entry.placed.count});
     }
     return emitters;
+}
+
+bool ObjectTable::anyLights() const {
+    return std::any_of(_entries.begin(), _entries.end(),
+                       [](const auto& entry) { return entry.second.desc && entry.second.desc->light; });
+}
+
+void ObjectTable::profilesChanged(ChangedSet& changed) {
+    for (const auto& [id, entry] : _entries)
+        if (entry.desc && entry.desc->light && !entry.desc->light->shaping.iesFile.empty())
+            note(changed, id, entry, Change::Emission);
 }
 
 double TriangleSpread::worldWeight(const glm::mat4x3& objectToWorld) const {
@@ -72,21 +85,41 @@ TriangleSpread spreadOverTriangles(const TriangleMesh& mesh, const std::vector<f
     return spread;
 }
 
-MeshLights::Entry& MeshLights::entryOf(const ObjectTable::Emitter& emitter, const Geometry& geometry,
-                                       const MaterialTable& materials) {
+void MeshLights::spread(Entry& entry, const ObjectTable::Emitter& emitter, const Geometry& geometry,
+                        const MaterialTable& materials) {
     std::vector<float> luminances;
     for (uint32_t slot = 0; slot < geometry.slotCount && slot < emitter.desc->materials.size(); ++slot)
         luminances.push_back(materials.emittedLuminance(emitter.desc->materials[slot]));
-    Entry& entry = _entries[emitter.id];
-    entry.used = true;
-    if (entry.mesh == geometry.mesh && entry.luminances == luminances) return entry;
-    TriangleSpread spread = spreadOverTriangles(*geometry.mesh, luminances);
-    Buffer sums;
-    if (spread.weight > 0.0)
-        sums = _device.createFrom(spread.sums.data(), spread.sums.size(), "light tables");
-    spread.sums = {};
-    entry = {geometry.mesh, std::move(luminances), std::move(spread), std::move(sums), true};
-    return entry;
+    if (entry.mesh == geometry.mesh && entry.luminances == luminances) return;
+    entry.mesh = geometry.mesh;
+    entry.spread = spreadOverTriangles(*geometry.mesh, luminances);
+    entry.luminances = std::move(luminances);
+    entry.sums = Buffer();
+    if (entry.spread.weight > 0.0)
+        entry.sums = _device.createFrom(entry.spread.sums.data(), entry.spread.sums.size(), "light tables");
+    entry.spread.sums = {};
+}
+
+/// What an object's light asks for, but for what cannot be, which is told.
+void MeshLights::readLight(Entry& entry, const ObjectDesc& object, bool moves) {
+    if (sameLight(entry.asked, object.light) && entry.moves == moves) return;
+    entry.asked = entry.light = object.light;
+    entry.moves = moves;
+    const char* problem = nullptr;
+    if (entry.asked && !hasFiniteNumbers(*entry.asked)) {
+        problem = "a value of its light is not finite; it shines as its material says";
+        entry.light = nullptr;
+    } else if (entry.asked && moves) {
+        SurfaceLight found = *entry.asked; // what rays that meet it by chance can follow
+        found.diffuse = found.specular = 1.f;
+        found.shadow = {};
+        found.shadowLink.clear();
+        if (found == *entry.asked) return;
+        problem = "it moves while the shutter is open: its light's diffuse and specular multipliers, shadows "
+                  "and shadow linking have no effect";
+        entry.light = std::make_shared<const SurfaceLight>(std::move(found));
+    }
+    if (problem) _device.messages()(Severity::Warning, object.name, problem);
 }
 
 void MeshLights::commit(const ObjectTable& objects, const GeometryTable& geometries,
@@ -99,25 +132,39 @@ void MeshLights::commit(const ObjectTable& objects, const GeometryTable& geometr
     for (const ObjectTable::Emitter& emitter : emitters) {
         const Geometry& geometry = *geometries.find(emitter.desc->geometry);
         // What moves while the shutter is open is nowhere long enough to be aimed at: rays find it by chance.
-        if (objects.records()[emitter.first].keyCount > 0 || geometry.keys > 1) continue;
-        const Entry& entry = entryOf(emitter, geometry, *materials);
+        const bool moves = objects.records()[emitter.first].keyCount > 0 || geometry.keys > 1;
+        Entry& entry = _entries[emitter.id];
+        entry.used = true;
+        readLight(entry, *emitter.desc, moves);
+        if (moves && !entry.light) continue;
+        spread(entry, emitter, geometry, *materials);
         if (!(entry.spread.weight > 0.0)) continue;
-        for (uint32_t i = emitter.first; i < emitter.first + emitter.count; ++i) {
-            const glm::mat4x3& objectToWorld = objects.records()[i].objectToWorld;
-            MeshLight light;
-            light.instance = i;
-            light.triangleCount = uint32_t(entry.mesh->triangles.size());
-            light.distribution = entry.sums.address();
-            const WorldBox box = transformed(entry.spread.box, objectToWorld);
-            light.bounds.lo = box.min, light.bounds.hi = box.max;
-            light.bounds.spread = glm::pi<double>(); // both sides emit
-            light.bounds.emission = glm::half_pi<double>();
-            light.bounds.power = glm::two_pi<double>() * entry.spread.worldWeight(objectToWorld);
-            _lights.push_back(light);
-        }
+        for (uint32_t i = emitter.first; i < emitter.first + emitter.count; ++i)
+            _lights.push_back(lightOf(entry, *emitter.desc, i, objects.records()[i].objectToWorld));
     }
     for (auto it = _entries.begin(); it != _entries.end();)
         it = it->second.used ? std::next(it) : _entries.erase(it);
+}
+
+MeshLight MeshLights::lightOf(const Entry& entry, const ObjectDesc& object, uint32_t instance,
+                              const glm::mat4x3& objectToWorld) {
+    MeshLight light;
+    light.instance = instance;
+    if (!entry.moves) {
+        light.triangleCount = uint32_t(entry.mesh->triangles.size());
+        light.distribution = entry.sums.address();
+    }
+    const WorldBox box = transformed(entry.spread.box, objectToWorld);
+    light.bounds.lo = box.min, light.bounds.hi = box.max;
+    light.bounds.spread = glm::pi<double>(); // both sides emit
+    light.bounds.emission = glm::half_pi<double>();
+    light.bounds.power = glm::two_pi<double>() * entry.spread.worldWeight(objectToWorld);
+    if (entry.light) {
+        light.light = entry.light;
+        light.name = object.name;
+        light.objectToWorld = objectToWorld;
+    }
+    return light;
 }
 
 } // namespace hipr

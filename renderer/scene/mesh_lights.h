@@ -40,16 +40,20 @@ public:
     const std::vector<MeshLight>& lights() const { return _lights; }
 
 private:
-    /// The spread of one object, and what it was made from.
+    /// Of one object: the spread and the light, and what they were made from.
     struct Entry {
         std::shared_ptr<const TriangleMesh> mesh;
         std::vector<float> luminances;
         TriangleSpread spread;
         Buffer sums;
-        bool used = false;
+        std::shared_ptr<const SurfaceLight> asked, light;
+        bool moves = false, used = false;
     };
-    Entry& entryOf(const ObjectTable::Emitter& emitter, const Geometry& geometry,
-                   const MaterialTable& materials);
+    void spread(Entry& entry, const ObjectTable::Emitter& emitter, const Geometry& geometry,
+                const MaterialTable& materials);
+    void readLight(Entry& entry, const ObjectDesc& object, bool moves);
+    static MeshLight lightOf(const Entry& entry, const ObjectDesc& object, uint32_t instance,
+                             const glm::mat4x3& objectToWorld);
 
     Device& _device;
     std::map<ObjectId, Entry> _entries;

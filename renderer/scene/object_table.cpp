@@ -5,6 +5,7 @@
 
 #include "renderer/scene/instance_diff.h"
 #include "renderer/scene/placements.h"
+#include "renderer/shading/mesh_light.h"
 
 namespace hipr {
 namespace {
@@ -58,6 +59,7 @@ void ObjectTable::setObject(ObjectId id, const ObjectDesc& desc, ChangedSet& cha
             entry.desc->lightGroup != desc.lightGroup)
             change = change | Change::Primvar;
         if (entry.desc->categories != desc.categories) change = change | Change::Linking;
+        if (!sameLight(entry.desc->light, desc.light)) change = change | Change::Emission;
         if (change != Change::None) vacate(entry);
     }
     entry.boundsPending = true;

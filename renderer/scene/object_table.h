@@ -34,6 +34,8 @@ public:
     void geometryChanged(GeometryId id, Change change, ChangedSet& changed);
     void splatsChanged(SplatsId id, ChangedSet& changed);
     void volumeChanged(VolumeId id, Change change, ChangedSet& changed);
+    /// Reports all objects whose light has an IES profile.
+    void profilesChanged(ChangedSet& changed);
     /// Calls `visit` with the description of every object, by id.
     template <class Visitor> void forObjects(Visitor&& visit) const {
         for (const auto& [id, entry] : _entries)
@@ -52,6 +54,8 @@ public:
     bool keepNames(bool keep) { return std::exchange(_keepsNames, keep) != keep; }
     /// What objects that inherit their style have. Takes effect in commit().
     void setViewCull(CullStyle style) { _viewCull = style; }
+    /// Whether some object is a light, that is, has ObjectDesc::light.
+    bool anyLights() const;
     /// Whether any instance has motion.
     bool anyMotion() const;
 

@@ -200,6 +200,16 @@ void dumpMaterial(SceneDump& dump, const MaterialDesc& material, bool nonOpaque)
     out.fact("nonOpaque", nonOpaque);
 }
 
+void dumpLightControls(SceneDump::Element& out, const LightShaping& shaping, const LightShadow& shadow,
+                       const std::string& lightLink, const std::string& shadowLink) {
+    out.fact("focus", shaping.focus, "tint", shaping.focusTint);
+    out.fact("cone", shaping.coneAngle, "softness", shaping.coneSoftness);
+    out.fact("ies", shaping.iesFile, "angleScale", shaping.iesAngleScale, "normalize", shaping.iesNormalize);
+    out.fact("shadow", shadow.enable, shadow.color, "distance", shadow.distance, "falloff", shadow.falloff,
+             shadow.falloffGamma);
+    out.fact("lightLink", lightLink, "shadowLink", shadowLink);
+}
+
 void dumpLight(SceneDump& dump, const LightDesc& light, bool emits) {
     SceneDump::Element& out = dump.element("light", light.name);
     out.fact("kind", name(light.kind));
@@ -212,15 +222,8 @@ void dumpLight(SceneDump& dump, const LightDesc& light, bool emits) {
     out.fact("angle", light.angle);
     out.fact("diffuse", light.diffuse, "specular", light.specular);
     out.fact("texture", light.texture);
-    const LightShaping& shaping = light.shaping;
-    out.fact("focus", shaping.focus, "tint", shaping.focusTint);
-    out.fact("cone", shaping.coneAngle, "softness", shaping.coneSoftness);
-    out.fact("ies", shaping.iesFile, "angleScale", shaping.iesAngleScale, "normalize", shaping.iesNormalize);
     out.fact("thin", light.thin, "domeFormat", uint32_t(light.domeFormat));
-    const LightShadow& shadow = light.shadow;
-    out.fact("shadow", shadow.enable, shadow.color, "distance", shadow.distance, "falloff", shadow.falloff,
-             shadow.falloffGamma);
-    out.fact("lightLink", light.lightLink, "shadowLink", light.shadowLink);
+    dumpLightControls(out, light.shaping, light.shadow, light.lightLink, light.shadowLink);
     out.fact("visible", light.visible);
     if (!light.group.empty()) out.fact("group", light.group);
     out.fact("emits", emits);

@@ -72,5 +72,8 @@ void dumpCamera(SceneDump& dump, const CameraDesc& camera);
 void dumpMesh(SceneDump& dump, const TriangleMesh& mesh);
 void dumpMaterial(SceneDump& dump, const MaterialDesc& material, bool nonOpaque);
 void dumpLight(SceneDump& dump, const LightDesc& light, bool emits);
+/// What lights and surfaces that are lights have in common.
+void dumpLightControls(SceneDump::Element& out, const LightShaping& shaping, const LightShadow& shadow,
+                       const std::string& lightLink, const std::string& shadowLink);
 
 } // namespace hipr

@@ -44,6 +44,10 @@ void ObjectTable::dump(SceneDump& dump, const GeometryTable& geometries, const S
         for (uint32_t slot = 0; slot < entry.placed.materialCount; ++slot)
             out.fact("slot", slot, "shown",
                      nameOf.byIndex(_materialIndices[entry.placed.firstMaterial + slot]));
+        if (const SurfaceLight* light = entry.desc->light.get()) {
+            out.fact("diffuse", light->diffuse, "specular", light->specular);
+            dumpLightControls(out, light->shaping, light->shadow, light->lightLink, light->shadowLink);
+        }
         dumpInstances(out, entry);
     }
 }

@@ -1,6 +1,8 @@
 #include "renderer/shading/light_shape.h"
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 
 #include "renderer/shading/blackbody.h"
@@ -56,26 +58,24 @@ bool positiveSize(const LightDesc& desc) {
     }
 }
 
+bool allFinite(std::initializer_list<float> values) {
+    return std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
+}
+
+bool finiteNumbers(const LightShaping& s) {
+    return allFinite(
+        {s.focus, s.focusTint.x, s.focusTint.y, s.focusTint.z, s.coneAngle, s.coneSoftness, s.iesAngleScale});
+}
+
+bool finiteNumbers(const LightShadow& s) {
+    return allFinite({s.color.x, s.color.y, s.color.z, s.distance, s.falloff, s.falloffGamma});
+}
+
 bool finiteNumbers(const LightDesc& desc) {
-    const LightShaping& s = desc.shaping;
-    const LightShadow& shadow = desc.shadow;
-    const float all[] = {desc.intensity, desc.exposure,
-                         desc.color.x,   desc.color.y,
-                         desc.color.z,   desc.colorTemperature,
-                         desc.radius,    desc.width,
-                         desc.height,    desc.length,
-                         desc.angle,     desc.diffuse,
-                         desc.specular,  s.focus,
-                         s.focusTint.x,  s.focusTint.y,
-                         s.focusTint.z,  s.coneAngle,
-                         s.coneSoftness, s.iesAngleScale,
-                         shadow.color.x, shadow.color.y,
-                         shadow.color.z, shadow.distance,
-                         shadow.falloff, shadow.falloffGamma};
-    bool finite = isFinite(desc.transform);
-    for (const float v : all)
-        finite = finite && std::isfinite(v);
-    return finite;
+    return isFinite(desc.transform) && finiteNumbers(desc.shaping) && finiteNumbers(desc.shadow) &&
+           allFinite({desc.intensity, desc.exposure, desc.color.x, desc.color.y, desc.color.z,
+                      desc.colorTemperature, desc.radius, desc.width, desc.height, desc.length, desc.angle,
+                      desc.diffuse, desc.specular});
 }
 
 /// The rotation (or reflection) next to a transform: infinite lights have a direction but no size.
@@ -131,6 +131,11 @@ void setShape(const LightDesc& desc, gpu::LightRecord& record) {
 
 } // namespace
 
+bool hasFiniteNumbers(const SurfaceLight& light) {
+    return finiteNumbers(light.shaping) && finiteNumbers(light.shadow) &&
+           allFinite({light.diffuse, light.specular});
+}
+
 double lightSizeFactor(const LightDesc& desc) {
     if (desc.kind == LightKind::Dome) return 1.0;
     if (desc.kind != LightKind::Distant) return areaOf(desc);
@@ -185,6 +190,7 @@ std::optional<gpu::ShadowRecord> describeShadow(const LightShadow& shadow, uint3
     record.fadeStart = fades ? std::max(shadow.distance - shadow.falloff, 0.f) : record.end;
     record.gamma = std::max(shadow.falloffGamma, 1e-3f);
     record.category = category;
+    record.instance = gpu::NO_INDEX;
     return record;
 }
 

@@ -15,6 +15,9 @@ namespace hipr {
 /// 0. A dome: 1, since normalize has no meaning there.
 double lightSizeFactor(const LightDesc& desc);
 
+/// Whether all numbers of a surface's light are finite.
+bool hasFiniteNumbers(const SurfaceLight& light);
+
 /// Fills the record of a light that emits: transforms, shape, radiance (UsdLux: intensity * 2^exposure *
 /// colour * black-body colour, divided by lightSizeFactor() when normalised). Returns false for a light that
 /// emits nothing; then `problem` tells why when that cannot have been meant.

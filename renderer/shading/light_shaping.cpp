@@ -53,6 +53,10 @@ void ProfileStore::dropUnused() {
     }
 }
 
+bool ProfileStore::forget() {
+    return !std::exchange(_entries, {}).empty();
+}
+
 bool isShaped(const LightShaping& shaping) {
     return shaping.focus > 0.f || shaping.coneAngle < 180.f || !shaping.iesFile.empty();
 }

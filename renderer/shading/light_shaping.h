@@ -27,6 +27,8 @@ public:
     const Entry* find(const std::string& path, const std::string& subject);
     /// Frees the profiles that were not asked for since the last call.
     void dropUnused();
+    /// Frees all. Returns whether there were any.
+    bool forget();
 
 private:
     Device& _device;

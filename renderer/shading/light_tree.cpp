@@ -180,6 +180,12 @@ glm::vec3 halfExtent(const gpu::LightRecord& record) {
 
 } // namespace
 
+void narrow(LightBounds& bounds, const glm::vec3& axis, double coneAngle) {
+    bounds.axis = axis;
+    bounds.emission = std::min(coneAngle, 0.5 * Pi);
+    bounds.spread = coneAngle - bounds.emission;
+}
+
 LightBounds boundsOf(const gpu::LightRecord& record, double coneAngle, double power) {
     LightBounds bounds;
     const glm::vec3 centre = record.lightToWorld[3];
@@ -191,10 +197,8 @@ LightBounds boundsOf(const gpu::LightRecord& record, double coneAngle, double po
     const double widest = flat ? 0.5 * Pi : Pi;
     bounds.emission = 0.5 * Pi;
     bounds.spread = flat ? 0.0 : Pi;
-    if (coneAngle < widest) { // light leaves within the cone around -Z, whatever the normal there
-        bounds.axis = -glm::normalize(record.lightToWorld[2]);
-        bounds.emission = std::min(coneAngle, 0.5 * Pi);
-        bounds.spread = coneAngle - bounds.emission;
+    if (coneAngle < widest) {
+        narrow(bounds, -glm::normalize(record.lightToWorld[2]), coneAngle);
     } else if (flat) { // the normal of the side -Z: the inverse transposed applied to it
         const glm::mat3 inverse(record.worldToLight);
         bounds.axis = -glm::normalize(glm::vec3(inverse[0].z, inverse[1].z, inverse[2].z));

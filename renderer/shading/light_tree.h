@@ -24,6 +24,10 @@ struct LightBounds {
 /// radians; pi and above: none.
 LightBounds boundsOf(const gpu::LightRecord& record, double coneAngle, double power);
 
+/// Narrows bounds by a cone around the unit vector `axis`, within which light leaves whatever the normal
+/// there.
+void narrow(LightBounds& bounds, const glm::vec3& axis, double coneAngle);
+
 /// A tree over all lights, the i-th being that of record i. The same for the same bounds, whatever was
 /// before. `leaves`: the node of each light.
 std::vector<gpu::LightNode> buildLightTree(const std::vector<LightBounds>& lights,

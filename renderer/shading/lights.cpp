@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/gtc/constants.hpp>
+
 #include "renderer/shading/dome.h"
 #include "renderer/shading/light_choice.h"
 #include "renderer/shading/light_shape.h"
@@ -73,12 +75,15 @@ struct LightTable::Impl {
     std::vector<Light*> inOrder();
     uint32_t& groupOf(const LightRecord& record);
     bool bindTexture(Light& light, LightRecord& record, glm::vec3& mean);
-    double shape(const Light& light, LightRecord& record, std::vector<gpu::ShapingRecord>& table);
+    double shape(const LightShaping& shaping, const std::string& name, LightRecord& record,
+                 std::vector<gpu::ShapingRecord>& table);
+    void addShadow(gpu::ShadowRecord shadow, LightRecord& record, std::vector<gpu::ShadowRecord>& table);
     template <class Record>
     void uploadParts(const std::vector<Record>& parts, uint64_t LightRecord::*address,
                      std::vector<LightRecord>& table, Buffer& buffer);
     size_t inTree() const { return areaLights + thinLights + meshes.size(); }
     void addMeshes(Tables& tables);
+    float govern(const SurfaceLight& light, LightRecord& record, std::vector<gpu::ShadowRecord>& table);
     void rebuild();
     void growTree(Tables& tables);
     std::vector<float> spreadChances(Tables& tables);
@@ -145,17 +150,25 @@ bool LightTable::Impl::bindTexture(Light& light, LightRecord& record, glm::vec3&
     return !known.dome.values.empty();
 }
 
-/// Adds the light's shaping to the table; `record` refers to it by its place there, counted from 1, until
+/// Adds a light's shaping to the table; `record` refers to it by its place there, counted from 1, until
 /// uploadParts(). Returns the share of the light's power that is left.
-double LightTable::Impl::shape(const Light& light, LightRecord& record,
+double LightTable::Impl::shape(const LightShaping& shaping, const std::string& name, LightRecord& record,
                                std::vector<gpu::ShapingRecord>& table) {
-    if (light.record.kind == gpu::LIGHT_DOME || !isShaped(light.shaping)) return 1.0;
-    const std::string& file = light.shaping.iesFile;
-    const ProfileStore::Entry* profile = file.empty() ? nullptr : profiles.find(file, light.name);
-    table.push_back(describeShaping(light.shaping, profile));
+    if (record.kind == gpu::LIGHT_DOME || !isShaped(shaping)) return 1.0;
+    const std::string& file = shaping.iesFile;
+    const ProfileStore::Entry* profile = file.empty() ? nullptr : profiles.find(file, name);
+    table.push_back(describeShaping(shaping, profile));
     record.shaping = table.size();
     const bool flat = record.kind == gpu::LIGHT_RECT || record.kind == gpu::LIGHT_DISK;
     return shapedShare(table.back(), profile, flat);
+}
+
+/// Adds a light's shadows to the table; `record` refers to them as to its shaping.
+void LightTable::Impl::addShadow(gpu::ShadowRecord shadow, LightRecord& record,
+                                 std::vector<gpu::ShadowRecord>& table) {
+    if (record.kind == gpu::LIGHT_MESH) shadow.instance = record.instance;
+    table.push_back(shadow);
+    record.shadow = table.size();
 }
 
 /// Uploads what some lights have beside their records, and turns their numbers of it into addresses.
@@ -177,10 +190,9 @@ void LightTable::Impl::rebuild() {
             glm::vec3 mean(1.f);
             LightRecord record = light->record;
             if (&groupOf(record) != count || !bindTexture(*light, record, mean)) continue;
-            const double share = shape(*light, record, tables.shapings);
+            const double share = shape(light->shaping, light->name, record, tables.shapings);
             if (!(share > 0.0)) continue;
-            if (shadowsShown && light->shadow)
-                tables.shadows.push_back(*light->shadow), record.shadow = tables.shadows.size();
+            if (shadowsShown && light->shadow) addShadow(*light->shadow, record, tables.shadows);
             tables.lights.push_back(record);
             tables.powers.push_back(share * lightPower(record, mean, sceneRadius));
             tables.links.push_back(light->links);
@@ -189,9 +201,10 @@ void LightTable::Impl::rebuild() {
     }
     profiles.dropUnused();
     if (!shadowsShown) {
-        tables.shadows = {*describeShadow({false}, gpu::NO_INDEX)};
+        const gpu::ShadowRecord none = *describeShadow({false}, gpu::NO_INDEX);
+        tables.shadows.clear();
         for (LightRecord& record : tables.lights)
-            record.shadow = 1;
+            addShadow(none, record, tables.shadows);
     }
     growTree(tables);
     const std::vector<float> sums = spreadChances(tables);
@@ -204,6 +217,9 @@ void LightTable::Impl::rebuild() {
 
 void LightTable::Impl::addMeshes(Tables& tables) {
     std::vector<uint32_t> lightOf(meshes.empty() ? 0 : instanceCount, gpu::NO_INDEX);
+    const SurfaceLight* shaped = nullptr; // whose shaping is `shaping`: instances have one
+    uint64_t shaping = 0;
+    double share = 1.0;
     for (const MeshLight& mesh : meshes) {
         LightRecord record{};
         record.kind = gpu::LIGHT_MESH;
@@ -213,11 +229,34 @@ void LightTable::Impl::addMeshes(Tables& tables) {
         record.distribution = mesh.distribution;
         record.instance = mesh.instance;
         record.triangleCount = mesh.triangleCount;
+        tables.powers.push_back(mesh.bounds.power);
+        tables.links.push_back(mesh.bounds.links);
+        if (const SurfaceLight* light = mesh.light.get()) {
+            record.lightToWorld = mesh.objectToWorld;
+            if (light != shaped) {
+                share = shape(light->shaping, mesh.name, record, tables.shapings);
+                shaping = record.shaping;
+                shaped = light;
+            }
+            record.shaping = shaping;
+            tables.powers.back() *= share * double(govern(*light, record, tables.shadows));
+            tables.links.back() = CategoryTable::markOf(light->lightLink);
+        }
         lightOf[mesh.instance] = uint32_t(tables.lights.size());
         tables.lights.push_back(record);
-        tables.powers.push_back(mesh.bounds.power);
     }
     instanceLights = device.createFrom(lightOf.data(), lightOf.size(), "light tables");
+}
+
+/// What the light of a mesh says of those it lights and of its shadows. Returns the larger multiplier.
+float LightTable::Impl::govern(const SurfaceLight& light, LightRecord& record,
+                               std::vector<gpu::ShadowRecord>& table) {
+    record.diffuse = std::max(light.diffuse, 0.f);
+    record.specular = std::max(light.specular, 0.f);
+    record.category = categories.category(light.lightLink);
+    const auto shadow = describeShadow(light.shadow, categories.category(light.shadowLink));
+    if (shadowsShown && shadow) addShadow(*shadow, record, table);
+    return std::max(record.diffuse, record.specular);
 }
 
 /// Puts all lights that have a place into the tree.
@@ -225,13 +264,15 @@ void LightTable::Impl::growTree(Tables& tables) {
     std::vector<LightBounds> bounds;
     for (size_t i = 0; i < inTree(); ++i) {
         const LightRecord& record = tables.lights[i];
+        const double cone = record.shaping ? double(tables.shapings[record.shaping - 1].coneAngle) : 4.0;
         if (record.kind == gpu::LIGHT_MESH) {
             bounds.push_back(meshes[i - areaLights - thinLights].bounds);
             bounds.back().power = roundedPower(tables.powers[i]);
-            continue;
+            if (cone < glm::pi<double>())
+                narrow(bounds.back(), -glm::normalize(record.lightToWorld[2]), cone);
+        } else {
+            bounds.push_back(boundsOf(record, cone, roundedPower(tables.powers[i])));
         }
-        const double cone = record.shaping ? double(tables.shapings[record.shaping - 1].coneAngle) : 4.0;
-        bounds.push_back(boundsOf(record, cone, roundedPower(tables.powers[i])));
         bounds.back().links = tables.links[i];
     }
     std::vector<uint32_t> leaves;
@@ -287,12 +328,17 @@ void LightTable::set(LightId id, const LightDesc& desc, uint32_t group) {
             _impl->textures.acquire({desc.texture, "auto", wrapS, WrapMode::Clamp, true, format}, desc.name);
     _impl->forget(id); // after the acquire: a texture in both stays loaded
     if (!emits) return;
-    light.record.light = uint32_t(id);
     light.record.group = group;
     light.record.category = _impl->categories.category(desc.lightLink);
     light.links = CategoryTable::markOf(desc.lightLink);
     _impl->lights[id] = light;
     _impl->changed = true;
+}
+
+bool LightTable::forgetProfiles() {
+    const bool any = _impl->profiles.forget();
+    _impl->changed |= any;
+    return any;
 }
 
 void LightTable::setShadows(bool shadows) {

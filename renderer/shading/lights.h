@@ -27,6 +27,9 @@ public:
     /// `group`: the interned name of its group, NO_INDEX: none.
     void set(LightId id, const LightDesc& desc, uint32_t group = gpu::NO_INDEX);
     void remove(LightId id);
+    /// Has the files of IES profiles read again by the next commit(). Returns whether there are any. No
+    /// submission may be reading the tables.
+    bool forgetProfiles();
 
     /// Whether lights, those that are meshes as well, cast shadows; off, all light gets through all objects.
     void setShadows(bool shadows);

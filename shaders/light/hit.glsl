@@ -43,21 +43,26 @@ vec3 lightsAlongRay(SceneRecord scene, Ray ray, float tHit, bool cameraRay, floa
         LightPoint hit;
         if (!meetLight(light, ray.origin, d, hit) || hit.t <= ray.tMin || hit.t >= tHit) continue;
         float pdf = cameraRay || bsdfPdf < 0.0 ? 0.0 : hit.pdf * lightChance(scene, light, Receiver(ray.origin, n, categories));
-        const vec3 radiance = hitWeight(light, cameraRay ? -1.0 : bsdfPdf, pdf) * shapeRadiance(scene, light, hit.st, d);
+        const vec3 radiance = hitWeight(light, cameraRay ? -1.0 : bsdfPdf, pdf) * shapeRadiance(scene, light, hit.st) *
+                              shapingFactor(light, d);
         MET_LIGHT(light, radiance);
         sum += radiance;
     }
     return sum;
 }
 
-// Weight of the emission of a surface that a ray has met, as hitWeight(). `n`, `categories`: of the surface that it left.
-float emissionWeight(SceneRecord scene, Hit hit, Ray ray, float bsdfPdf, vec3 n, uint categories) {
-    if (bsdfPdf < 0.0 || !sceneHas(SCENE_HAS_MESH_LIGHTS) || scene.instanceLights == 0ul) return 1.0;
+// What counts of the emission of a surface that a ray has met: weight, as hitWeight(), and shaping. `n`, `categories`: of
+// the surface that the ray left; the camera sees all.
+vec3 emissionShare(SceneRecord scene, Hit hit, Ray ray, bool cameraRay, float bsdfPdf, vec3 n, uint categories) {
+    if (!sceneHas(SCENE_HAS_MESH_LIGHTS) || scene.instanceLights == 0ul) return vec3(1.0);
     uint index = UintRef(scene.instanceLights).v[hit.instance];
-    if (index == NO_INDEX) return 1.0;
+    if (index == NO_INDEX) return vec3(1.0);
     LightRecord light = LightRef(scene.lights).v[index];
-    float pdf = meshPdf(scene, light, hit, ray.direction);
-    return hitWeight(light, bsdfPdf, pdf * lightChance(scene, light, Receiver(ray.origin, n, categories)));
+    if (!cameraRay && !inCategory(scene, categories, light.category)) return vec3(0.0);
+    float pdf = bsdfPdf < 0.0 || light.distribution == 0ul
+                    ? 0.0
+                    : meshPdf(scene, light, hit, ray.direction) * lightChance(scene, light, Receiver(ray.origin, n, categories));
+    return hitWeight(light, bsdfPdf, pdf) * shapingFactor(light, ray.direction);
 }
 
 // Radiance of dome and distant lights for a ray that left the scene. Distant lights are not seen by camera rays; domes

@@ -43,11 +43,10 @@ float powerHeuristic(float pdf, float other) {
 // Weight of a light sample against finding the same direction by sampling the BSDF with density `bsdfPdf`.
 float lightMisWeight(LightSample ls, float bsdfPdf) { return ls.exclusive ? 1.0 : powerHeuristic(ls.pdf, bsdfPdf); }
 
-// What an area light sends from the point `st` in the direction -wi.
-vec3 shapeRadiance(SceneRecord scene, LightRecord light, vec2 st, vec3 wi) {
-    vec3 radiance = light.radiance * shapingFactor(light, wi);
-    if (light.texture == NO_INDEX) return radiance;
-    return radiance * max(sampleTexture(TextureRef(scene.textures).v[light.texture], st).rgb, 0.0);
+// What an area light sends from the point `st`, but for its shaping.
+vec3 shapeRadiance(SceneRecord scene, LightRecord light, vec2 st) {
+    if (light.texture == NO_INDEX) return light.radiance;
+    return light.radiance * max(sampleTexture(TextureRef(scene.textures).v[light.texture], st).rgb, 0.0);
 }
 
 // The light for u in [0, 1): by the tree, or in proportion to the chances of lights, the first whose sum of chances is
@@ -77,7 +76,7 @@ bool sampleDistant(LightRecord light, vec2 u, inout LightSample ls) {
     float x = u.x * light.area / (2.0 * PI); // 1 - cosine
     float sine = sqrt(max(0.0, x * (2.0 - x))), phi = 2.0 * PI * u.y;
     ls.wi = frameAround(axis) * vec3(sine * cos(phi), sine * sin(phi), 1.0 - x);
-    ls.radiance = light.radiance * shapingFactor(light, ls.wi);
+    ls.radiance = light.radiance;
     ls.pdf = light.area > 0.0 ? 1.0 / light.area : 1.0;
     return true;
 }
@@ -89,7 +88,7 @@ bool sampleThin(LightRecord light, vec3 p, float u, inout LightSample ls) {
     ls.distance = sqrt(squared);
     ls.wi = way / ls.distance;
     ls.pdf = 1.0;
-    ls.radiance = light.radiance * shapingFactor(light, ls.wi) / squared;
+    ls.radiance = light.radiance / squared;
     if (light.size.y > 0.0) ls.radiance *= length(cross(ls.wi, normalize(light.lightToWorld[0])));
     return squared > 0.0;
 }
@@ -133,7 +132,7 @@ bool sampleLight(SceneRecord scene, vec3 p, vec3 n, uint categories, vec4 u, out
     } else if (light.kind == LIGHT_THIN) {
         seen = sampleThin(light, p, u.y, ls);
     } else if (sceneHas(SCENE_HAS_MESH_LIGHTS) && light.kind == LIGHT_MESH) {
-        seen = sampleMesh(scene, light, p, u.yz, ls.wi, ls.pdf, ls.end);
+        seen = light.distribution != 0ul && sampleMesh(scene, light, p, u.yz, ls.wi, ls.pdf, ls.end);
         ls.distance = ls.end.t;
         ls.radiance = light.radiance;
     } else {
@@ -141,9 +140,11 @@ bool sampleLight(SceneRecord scene, vec3 p, vec3 n, uint categories, vec4 u, out
         seen = sampleShape(light, p, u.yz, ls.wi, point);
         ls.distance = point.t;
         ls.pdf = point.pdf;
-        ls.radiance = shapeRadiance(scene, light, point.st, ls.wi);
+        ls.radiance = shapeRadiance(scene, light, point.st);
     }
+    if (!seen) return false;
+    ls.radiance *= shapingFactor(light, ls.wi);
     ls.pdf *= chance;
-    return seen && any(greaterThan(ls.radiance, vec3(0.0)));
+    return any(greaterThan(ls.radiance, vec3(0.0)));
 }
 #endif

@@ -47,7 +47,7 @@ struct ShadowRecord {
     float end;
     float gamma;
     uint category;           // of the objects that cast shadows, NO_INDEX: all
-    uint pad;
+    uint instance;           // of a mesh, whose own surface casts plain shadows; NO_INDEX: another light
 };
 
 // An emitter: radiance on a shape. Emitters are ghosts: rays that cross one collect its emission and go on, so
@@ -62,11 +62,12 @@ struct LightRecord {
     float area;              // world area (area lights), solid angle (distant)
     float selectPdf;         // probability that NEE picks this light, or, of a leaf of the tree, the tree
     uint texture;            // TextureRecord or NO_INDEX
-    uint light;              // LightId value
+    uint group;              // interned name for light path expressions, NO_INDEX: none
     float diffuse;
     float specular;
     uint64_t distribution;   // dome: piecewise-constant sampling table, see shaders/light/environment.glsl; mesh: sums of
-                             // the chances of its triangles, float[triangleCount + 1] from 0 to 1
+                             // the chances of its triangles, float[triangleCount + 1] from 0 to 1; 0: it moves, and rays
+                             // alone find it
     uint distributionWidth;
     uint distributionHeight;
     uint64_t shaping;        // ShapingRecord, 0: none
@@ -75,8 +76,6 @@ struct LightRecord {
     uint leaf;               // in the tree of lights: its LightNode
     uint instance;           // mesh: its InstanceRecord
     uint triangleCount;      // mesh
-    uint group;              // interned name for light path expressions, NO_INDEX: none
-    uint pad;
 };
 
 HIPR_SHARED_END

@@ -96,6 +96,7 @@ struct TransmitWork {
     ShadowWork work;
     float direct;            // share that no surface has stopped
     float aside;             // share that was stopped, by surfaces that cast no shadow of this light
+    vec3 through;            // of a mesh that is a light: share that its shadows let through so far
 };
 HIPR_CONST uint SHADOW_INDIRECT = 0x80000000u;
 

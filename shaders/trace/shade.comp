@@ -159,10 +159,10 @@ void disperse(TraceRecord trace, SceneRecord scene, inout Path path, inout Surfa
 void addEmission(TraceRecord trace, SceneRecord scene, Path path, Ray ray, Hit hit, vec3 emission) {
     if (emission == vec3(0.0)) return;
     const float bsdfPdf = (path.medium & MEDIUM_KIND) == MEDIUM_NONE ? path.bsdfPdf : -1.0; // see goesFree()
-    const float weight =
-        emissionWeight(scene, hit, ray, bsdfPdf, unpackLightNormal(path.lightNormal), path.categories);
+    const vec3 share = emissionShare(scene, hit, ray, path.depth == 0u, bsdfPdf, unpackLightNormal(path.lightNormal),
+                                     path.categories);
     const uint group = sortsLight(trace) ? lightGroupAt(scene, hit) : NO_INDEX;
-    collectEmission(trace, path, path.throughput * emission * weight, group);
+    collectEmission(trace, path, path.throughput * emission * share, group);
 }
 
 // What a path covers where it hits. The last digits of a random number choose between levels: its first ones, which choose

@@ -18,5 +18,5 @@ void main() {
     }
     const uint j = appendToQueue(trace, QUEUE_TRANSMIT);
     RayRef(trace.transmitRays[0]).v[j] = RayRef(trace.shadowRays).v[i];
-    TransmitWorkRef(trace.transmitWork[0]).v[j] = TransmitWork(work, 1.0, 0.0);
+    TransmitWorkRef(trace.transmitWork[0]).v[j] = TransmitWork(work, 1.0, 0.0, vec3(0.0));
 }

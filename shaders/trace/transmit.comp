@@ -11,10 +11,17 @@
 #include "light/shadow.glsl"
 #include "material/presence.glsl"
 
+// Whether a surface belongs to the mesh that is the light. It hides its own far side whatever its shadows are, or it would
+// give more light than a light of that shape; so light of a mesh does not arrive before all of its way is known.
+bool ownSurface(TransmitWork transmit, Hit hit) {
+    return transmit.work.shadow != 0ul && ShadowRef(transmit.work.shadow).v.instance == hit.instance;
+}
+
 // What the surface does to the light. Returns the share that gets through although it was stopped.
 vec3 meetSurface(SceneRecord scene, Hit hit, float opacity, inout TransmitWork transmit) {
     const uint64_t address = transmit.work.shadow;
-    if (address != 0ul) {
+    const bool own = ownSurface(transmit, hit);
+    if (address != 0ul && !own) {
         const uint set = InstanceRef(scene.instances).v[hit.instance].categories;
         if (!inCategory(scene, set, ShadowRef(address).v.category)) {
             transmit.aside += transmit.direct * opacity;
@@ -25,7 +32,8 @@ vec3 meetSurface(SceneRecord scene, Hit hit, float opacity, inout TransmitWork t
     const float stopped = (transmit.direct + transmit.aside) * opacity;
     transmit.direct *= 1.0 - opacity;
     transmit.aside *= 1.0 - opacity;
-    return address == 0ul ? vec3(0.0) : stopped * throughOccluder(ShadowRef(address).v, hit.t);
+    if (own) transmit.through *= 1.0 - opacity;
+    return address == 0ul || own ? vec3(0.0) : stopped * throughOccluder(ShadowRef(address).v, hit.t);
 }
 
 void main() {
@@ -37,10 +45,14 @@ void main() {
     const bool free = hit.instance == NO_INDEX;
     const SceneRecord scene = SceneRef(trace.scene).v;
     Ray ray = RayRef(trace.transmitRays[push.turn]).v[i];
-    const vec3 share = free ? vec3(transmit.direct * transmit.work.weight + transmit.aside)
-                            : meetSurface(scene, hit, clamp(evaluatePresence(scene, hit, ray.time), 0.0, 1.0), transmit);
+    vec3 share = free ? transmit.direct * transmit.work.weight + transmit.aside + transmit.through
+                      : meetSurface(scene, hit, clamp(evaluatePresence(scene, hit, ray.time), 0.0, 1.0), transmit);
+    if (!free && transmit.work.shadow != 0ul && ShadowRef(transmit.work.shadow).v.instance != NO_INDEX) {
+        transmit.through += share;
+        share = vec3(0.0);
+    }
     arrive(trace, transmit.work, share);
-    if (free || !(transmit.direct + transmit.aside > 0.0)) return;
+    if (free || !(transmit.direct + transmit.aside + luminance(transmit.through) > 0.0)) return;
     ray.tMin = passedDistance(hit.t);
     const uint other = 1u - push.turn;
     const uint j = appendToQueue(trace, QUEUE_TRANSMIT + other);

@@ -1,94 +1,18 @@
 // Emissive meshes as lights: against lights of the same shape, against closed forms, and alone.
-#include <cmath>
 #include <functional>
 
 #include <glm/gtc/constants.hpp>
-#include <gtest/gtest.h>
 
-#include "testenv/render/scene_kit.h"
+#include "testenv/render/light_kit.h"
 
 using namespace hipr;
 using namespace hipr::test;
 
 namespace {
 
-constexpr float Albedo = 0.5f;
-
-MaterialDesc glowing(glm::vec3 emission) {
-    MaterialDesc material = matte(glm::vec3(0.f));
-    material.emissiveColor = constantColor(emission);
-    return material;
-}
-
-/// A square of a width of `width` at (x, 0, z) that faces down.
-glm::mat4x3 ceiling(float width, float z, float x = 0.f) {
-    return placed(glm::mat4x3({width, 0, 0}, {0, -width, 0}, {0, 0, -1}, {0, 0, 0}), x, 0.f, z);
-}
-
-LightDesc rectLight(const glm::mat4x3& transform, glm::vec3 radiance) {
-    LightDesc light;
-    light.kind = LightKind::Rect;
-    light.transform = glm::dmat4(glm::mat4(glm::vec4(transform[0], 0), glm::vec4(transform[1], 0),
-                                           glm::vec4(-transform[2], 0), glm::vec4(transform[3], 1)));
-    light.color = radiance;
-    return light;
-}
-
-/// Mean and variance of the pixels.
-struct Shown {
-    glm::dvec3 mean{0.0};
-    double variance = 0.0; ///< of the green channel
-    double error() const { return std::sqrt(variance / 256.0); }
-};
-
-/// A floor at z = 0, of which some square millimetres are seen, so that all pixels have one truth.
-class Floor : public Stage {
-public:
-    explicit Floor(int samples = 64, MaterialDesc floor = matte(glm::vec3(Albedo)), int depth = 1)
-        : Stage(settingsOf(samples, depth)) {
-        floor.name = "/floor/look";
-        add(quadMesh(), floor, {scaling(40, 40, 1)});
-        LightDesc off; // keeps the camera's light away
-        off.kind = LightKind::Sphere;
-        off.visible = false;
-        Stage::add(off);
-        edit.setCamera(lookAt({0, 0.001, 0.3}, {0, 0, 0}, 1));
-        film(16, 16);
-    }
-    using Stage::add;
-    Shown shown() {
-        render();
-        const ColorPicture picture = color();
-        Shown result;
-        for (const glm::vec4& v : picture.values)
-            result.mean += glm::dvec3(v) / double(picture.values.size());
-        for (const glm::vec4& v : picture.values)
-            result.variance += std::pow(double(v.y) - result.mean.y, 2.0) / double(picture.values.size() - 1);
-        return result;
-    }
-
-private:
-    static Settings settingsOf(int samples, int depth) {
-        Settings settings;
-        settings.samples = samples;
-        settings.maxDepth = depth;
-        return settings;
-    }
-};
-
-void expectSame(const Shown& a, const Shown& b, double slack = 0.0) {
-    const double sigma = std::sqrt(a.error() * a.error() + b.error() * b.error());
-    for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(a.mean[c], b.mean[c], 3.0 * sigma + slack * b.mean[c] + 1e-4 * b.mean[c]) << c;
-}
-
-/// Rect lights are off by up to 0.2 % where they fill few solid angles: these are sums of angles in single
-/// precision.
-constexpr double RectSlack = 0.0025;
-
 /// The variance of the mean of `samples` rays of the BSDF that each find the radiance or nothing.
 double varianceWithoutLightSamples(const Shown& shown, double radiance, int samples) {
-    const double most = radiance * double(Albedo), chance = shown.mean.y / most;
+    const double most = radiance * double(FloorAlbedo), chance = shown.mean.y / most;
     return most * most * chance * (1.0 - chance) / samples;
 }
 
@@ -114,7 +38,8 @@ TEST(MeshLights, ASquareIsARectLight) {
     const Shown byMesh = mesh.shown(), byLight = light.shown();
     expectSame(byMesh, byLight);
     // A surface without a specular lobe is almost, but not quite, Lambert's.
-    const double truth = 5.0 * irradiance(3.0, 0.0, [](double) { return 1.0; }) * Albedo / glm::pi<double>();
+    const double truth =
+        5.0 * irradiance(3.0, 0.0, [](double) { return 1.0; }) * FloorAlbedo / glm::pi<double>();
     EXPECT_NEAR(byMesh.mean.y, truth, 0.03 * truth);
     EXPECT_LT(byMesh.variance, 1e-3 * varianceWithoutLightSamples(byMesh, 5.0, 64));
 }
@@ -189,7 +114,7 @@ TEST(MeshLights, EmissionVariesOverTheMesh) {
     Floor mesh(256);
     mesh.add(quadMesh({glow}), material, {placed(glm::mat4x3(1.f), 1.f, 0.f, 1.f)});
     const auto at = [](const auto& radiance) {
-        return irradiance(1.0, 1.0, radiance) * Albedo / glm::pi<double>();
+        return irradiance(1.0, 1.0, radiance) * FloorAlbedo / glm::pi<double>();
     };
     const double truth = at([](double u) { return 1.0 + 2.0 * u; });
     ASSERT_GT(std::abs(truth - at([](double) { return 1.0; })), 0.1 * truth); // a mean would not do
@@ -262,7 +187,7 @@ TEST(MeshLights, OpenPbrEmitsItsLuminance) {
 
 /// A lamp over a floor, with another object in front in the table of instances.
 struct Lamp : Floor {
-    explicit Lamp(const std::string& mode) : Floor(4, matte(glm::vec3(Albedo)), 3) {
+    explicit Lamp(const std::string& mode) : Floor(4, matte(glm::vec3(FloorAlbedo)), 3) {
         Settings settings;
         settings.samples = 4;
         settings.maxDepth = 3;

@@ -168,13 +168,12 @@ Stage::~Stage() {
 }
 
 ObjectId Stage::add(std::shared_ptr<const TriangleMesh> mesh, MaterialDesc material,
-                    std::vector<glm::mat4x3> transforms) {
+                    std::vector<glm::mat4x3> transforms, ObjectDesc desc) {
     const auto geometry = renderer->newId<GeometryId>();
     const auto materialId = renderer->newId<MaterialId>();
     const auto object = renderer->newId<ObjectId>();
     edit.setGeometry(geometry, std::move(mesh));
     edit.setMaterial(materialId, std::move(material));
-    ObjectDesc desc;
     desc.name = "/object" + std::to_string(uint32_t(object));
     desc.geometry = geometry;
     desc.materials = {materialId};

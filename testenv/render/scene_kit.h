@@ -62,8 +62,9 @@ public:
     explicit Stage(Settings settings = {}, RendererInternals internals = {});
     ~Stage(); ///< expects the validation layer to have been silent, if it was there
 
+    /// `desc`: what else there is to say of the object.
     ObjectId add(std::shared_ptr<const TriangleMesh> mesh, MaterialDesc material,
-                 std::vector<glm::mat4x3> transforms = {glm::mat4x3(1.f)});
+                 std::vector<glm::mat4x3> transforms = {glm::mat4x3(1.f)}, ObjectDesc desc = {});
     LightId add(LightDesc light);
     void film(uint32_t width, uint32_t height, std::vector<AovRequest> aovs = {{AovKind::Color, {}}});
     void settings(const Settings& settings);

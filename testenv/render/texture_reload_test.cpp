@@ -1,5 +1,6 @@
 // Texture files that change while they are in use.
 #include <cstring>
+#include <fstream>
 
 #include <gtest/gtest.h>
 
@@ -63,6 +64,48 @@ TEST(TextureReload, GivesThePictureOfAFreshStart) {
         fresh.render();
         EXPECT_FALSE(equal(before, edited.color())) << file->path();
         EXPECT_TRUE(equal(fresh.color(), edited.color())) << file->path();
+    }
+}
+
+/// Of a light, and of a mesh that is one.
+TEST(TextureReload, ReadsLightProfilesToo) {
+    const std::string path = ::testing::TempDir() + "hipr_reload.ies";
+    const auto write = [&](const char* candela) {
+        std::ofstream(path) << "IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 3 1 1 2 0 0 0\n1 1 10\n0 45 90\n0\n"
+                            << candela << '\n';
+    };
+    const auto setUp = [&](Stage& stage, bool mesh) {
+        SurfaceLight shaped;
+        shaped.shaping.iesFile = path;
+        LightDesc ball;
+        ball.name = "ball";
+        ball.shaping = shaped.shaping;
+        ball.transform = glm::translate(glm::dmat4(1), glm::dvec3(0, 0, 2));
+        ball.visible = !mesh;
+        stage.add(ball);
+        ObjectDesc desc;
+        desc.light = std::make_shared<const SurfaceLight>(shaped);
+        MaterialDesc glow = matte(glm::vec3(0.f));
+        glow.emissiveColor = constantColor(glm::vec3(1.f));
+        if (mesh) stage.add(quadMesh(), glow, {translation(0, 0, 2)}, desc);
+        stage.add(quadMesh(), matte(glm::vec3(0.5f)));
+        stage.edit.setCamera(lookAt({0.5, 1, 2}, {0, 0, 0}));
+        stage.film(16, 16);
+        stage.render();
+    };
+    for (const bool mesh : {false, true}) {
+        SCOPED_TRACE(mesh);
+        write("1 1 1");
+        Stage edited(fewSamples());
+        setUp(edited, mesh);
+        const ColorPicture before = edited.color();
+        write("5 2 1");
+        EXPECT_FALSE(edited.renderer->reloadTextures().empty());
+        edited.render();
+        Stage fresh(fewSamples());
+        setUp(fresh, mesh);
+        EXPECT_FALSE(equal(before, edited.color()));
+        EXPECT_TRUE(equal(fresh.color(), edited.color()));
     }
 }
 

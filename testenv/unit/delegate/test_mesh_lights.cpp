@@ -17,7 +17,7 @@ namespace {
 const glm::vec3 radiance(2.f, 4.f, 8.f);
 
 MeshLight light(MeshLight::Sync sync) {
-    return {sync, radiance, false};
+    return {sync, radiance, false, {}, {}};
 }
 
 MaterialInput constant(glm::vec3 const& value) {
