@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "plugin/hdHipr/messages.h"
-#include "plugin/hdHipr/renderLoop.h"
+#include "plugin/hdHipr/renderParam.h"
 #include "renderer/vulkan/cachefolder.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
@@ -13,13 +13,16 @@ namespace hdhipr {
 
 namespace {
 
-bool reloadTextures(RenderLoop& loop, VtDictionary const&) {
-    loop.submitTextureReload();
+bool reloadTextures(HdHiprRenderParam& param, VtDictionary const&) {
+    hipr::SceneEdit edit; // its own: prims may be filling that of `param`
+    param.shownFields().readAgain(edit);
+    param.loop()->submitEdit(edit);
+    param.loop()->submitTextureReload();
     return true;
 }
 
-bool clearCaches(RenderLoop& loop, VtDictionary const&) {
-    loop.submitTextureReload();
+bool clearCaches(HdHiprRenderParam& param, VtDictionary const&) {
+    reloadTextures(param, {});
     const bool cleared = hipr::clearKernelCaches();
     if (!cleared) {
         warnOnce("", "the kept kernels cannot all be deleted from '" + hipr::cacheFolder().string() + "'");
@@ -27,10 +30,10 @@ bool clearCaches(RenderLoop& loop, VtDictionary const&) {
     return cleared;
 }
 
-bool dumpScene(RenderLoop& loop, VtDictionary const& arguments) {
+bool dumpScene(HdHiprRenderParam& param, VtDictionary const& arguments) {
     const std::string path = VtDictionaryGet<std::string>(arguments, "file", VtDefault = std::string());
     std::ofstream file(path);
-    loop.whenIdle([&](hipr::Renderer& renderer) { renderer.dumpScene(file); });
+    param.loop()->whenIdle([&](hipr::Renderer& renderer) { renderer.dumpScene(file); });
     file.close();
     if (!file) {
         warnOnce("", "the scene cannot be written to '" + path + "'");
@@ -42,9 +45,12 @@ bool dumpScene(RenderLoop& loop, VtDictionary const& arguments) {
 
 std::vector<Command> const& commands() {
     static const std::vector<Command> all = {
-        {"reloadTextures", "Read all textures again and start the picture anew", {}, reloadTextures},
+        {"reloadTextures",
+         "Read all textures, light profiles and volumes again and start the picture anew",
+         {},
+         reloadTextures},
         {"clearCaches",
-         "Delete the compiled kernels that are kept between runs, and read all textures again",
+         "Delete the compiled kernels that are kept between runs, and do what reloadTextures does",
          {},
          clearCaches},
         {"dumpScene",
@@ -54,14 +60,14 @@ std::vector<Command> const& commands() {
     return all;
 }
 
-bool invokeCommand(RenderLoop& loop, TfToken const& name, VtDictionary const& arguments) {
+bool invokeCommand(HdHiprRenderParam& param, TfToken const& name, VtDictionary const& arguments) {
     const auto command = std::find_if(commands().begin(), commands().end(),
                                       [&](Command const& known) { return name == known.name; });
     if (command == commands().end()) {
         warnOnce("", "there is no command '" + name.GetString() + "'");
         return false;
     }
-    return command->invoke(loop, VtDictionaryOver(arguments, command->arguments));
+    return command->invoke(param, VtDictionaryOver(arguments, command->arguments));
 }
 
 } // namespace hdhipr

@@ -12,22 +12,22 @@
 
 PXR_NAMESPACE_OPEN_SCOPE
 
-namespace hdhipr {
+class HdHiprRenderParam;
 
-class RenderLoop;
+namespace hdhipr {
 
 struct Command {
     const char* name;
     const char* description; ///< for a button's tip
     VtDictionary arguments;  ///< with their defaults
-    bool (*invoke)(RenderLoop& loop, VtDictionary const& arguments);
+    bool (*invoke)(HdHiprRenderParam& param, VtDictionary const& arguments);
 };
 
 std::vector<Command> const& commands();
 
 /// Runs a command with the defaults of the arguments that are not given. False for one that is not in the
 /// list or fails, which is told.
-bool invokeCommand(RenderLoop& loop, TfToken const& name, VtDictionary const& arguments);
+bool invokeCommand(HdHiprRenderParam& param, TfToken const& name, VtDictionary const& arguments);
 
 } // namespace hdhipr
 

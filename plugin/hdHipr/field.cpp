@@ -1,8 +1,6 @@
 #include "plugin/hdHipr/field.h"
 
 #include "plugin/hdHipr/assets.h"
-#include "plugin/hdHipr/fieldFile.h"
-#include "plugin/hdHipr/messages.h"
 #include "plugin/hdHipr/renderParam.h"
 
 PXR_NAMESPACE_OPEN_SCOPE
@@ -31,14 +29,7 @@ void HdHiprField::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, Hd
         const std::string path = assetPath(delegate->Get(GetId(), HdFieldTokens->filePath));
         const hipr::FieldChoice choice{textOf(delegate->Get(GetId(), TfToken("fieldName"))),
                                        fieldIndex(delegate, GetId())};
-        if (path.empty()) {
-            warnOnce(GetId().GetString(), "it names no file");
-        }
-        if (const auto grid = path.empty() ? nullptr : fieldGrid(GetId(), path, choice)) {
-            param.edit().setField(param.fieldId(GetId()), grid);
-        } else {
-            param.edit().removeField(param.fieldId(GetId()));
-        }
+        param.shownFields().set(param.fieldId(GetId()), GetId(), path, choice, param.edit());
     }
     *dirtyBits = Clean;
 }
@@ -46,7 +37,7 @@ void HdHiprField::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, Hd
 void HdHiprField::Finalize(HdRenderParam* renderParam) {
     if (!GetId().IsEmpty()) {
         auto& param = static_cast<HdHiprRenderParam&>(*renderParam);
-        param.edit().removeField(param.fieldId(GetId()));
+        param.shownFields().remove(param.fieldId(GetId()), param.edit());
     }
 }
 

@@ -36,6 +36,11 @@ void keep(Key const& key, std::shared_ptr<const hipr::FieldGrid> const& grid) {
     cache[key] = grid;
 }
 
+void forgetAll() {
+    const std::lock_guard<std::mutex> lock(cacheMutex);
+    cache.clear();
+}
+
 std::shared_ptr<const hipr::FieldGrid> told(SdfPath const& field, hipr::FieldFile const& file) {
     for (std::string const& text : {file.error, file.warning}) {
         if (!text.empty()) {
@@ -45,8 +50,7 @@ std::shared_ptr<const hipr::FieldGrid> told(SdfPath const& field, hipr::FieldFil
     return file.grid;
 }
 
-} // namespace
-
+/// The grid of an asset by its resolved path, or null; what is wrong is said of `field`.
 std::shared_ptr<const hipr::FieldGrid> fieldGrid(SdfPath const& field, std::string const& path,
                                                  hipr::FieldChoice const& choice) {
     std::error_code none;
@@ -67,6 +71,36 @@ std::shared_ptr<const hipr::FieldGrid> fieldGrid(SdfPath const& field, std::stri
         keep(key, grid);
     }
     return grid;
+}
+
+} // namespace
+
+void ShownFields::set(hipr::FieldId id, SdfPath const& field, std::string const& path,
+                      hipr::FieldChoice const& choice, hipr::SceneEdit& edit) {
+    if (path.empty()) {
+        warnOnce(field.GetString(), "it names no file");
+        remove(id, edit);
+        return;
+    }
+    {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        _entries[id] = {field, path, choice};
+    }
+    edit.setField(id, fieldGrid(field, path, choice));
+}
+
+void ShownFields::remove(hipr::FieldId id, hipr::SceneEdit& edit) {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    _entries.erase(id);
+    edit.removeField(id);
+}
+
+void ShownFields::readAgain(hipr::SceneEdit& edit) {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    forgetAll();
+    for (auto const& [id, entry] : _entries) {
+        edit.setField(id, fieldGrid(entry.field, entry.path, entry.choice));
+    }
 }
 
 } // namespace hdhipr

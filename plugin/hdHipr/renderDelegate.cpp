@@ -324,7 +324,7 @@ bool HdHiprRenderDelegate::Resume() {
 }
 
 bool HdHiprRenderDelegate::runCommand(TfToken const& name, VtDictionary const& arguments) {
-    return _param->canRender() && invokeCommand(*_param->loop(), name, arguments);
+    return _param->canRender() && invokeCommand(*_param, name, arguments);
 }
 
 bool HdHiprRenderDelegate::stopRendering() {

@@ -65,7 +65,7 @@ public:
     /// Requests, for the main thread. Each restarts the picture only when it changes something.
     void submitEdit(hipr::SceneEdit& edit); ///< moves the content out of `edit`
     void submitSettings(hipr::Settings const& settings);
-    void submitTextureReload(); ///< the files of all textures are read again
+    void submitTextureReload(); ///< see Renderer::reloadTextures()
     void submitFrame(Frame const& frame);
 
     /// The buffer will not be written any more when this returns.

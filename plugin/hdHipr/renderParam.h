@@ -7,6 +7,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "plugin/hdHipr/fieldFile.h"
 #include "plugin/hdHipr/meshLight.h"
 #include "plugin/hdHipr/renderLoop.h"
 #include "plugin/hdHipr/sampling.h"
@@ -48,6 +49,7 @@ public:
     /// A material of the scene has been edited, or is gone.
     void setMaterial(SdfPath const& path, std::optional<hipr::MaterialDesc> const& desc);
     hdhipr::ShiningMaterials& shiningMaterials() { return _shiningMaterials; }
+    hdhipr::ShownFields& shownFields() { return _shownFields; }
 
     /// The field of a path, likewise.
     hipr::FieldId fieldId(SdfPath const& path);
@@ -90,6 +92,7 @@ private:
     hipr::SceneEdit _edit;
     std::atomic<uint32_t> _lastId{0};
     hdhipr::ShiningMaterials _shiningMaterials;
+    hdhipr::ShownFields _shownFields;
 
     std::mutex _mutex; ///< guards everything below
     std::unordered_map<SdfPath, hipr::MaterialId, SdfPath::Hash> _materials;

@@ -31,7 +31,7 @@ TEST(Commands, dumpSceneWritesWhatTheRendererHolds) {
         std::filesystem::temp_directory_path() / ("hipr-dump-" + std::to_string(getpid()) + ".txt");
     VtDictionary arguments;
     arguments["file"] = VtValue(path.string());
-    EXPECT_TRUE(hdhipr::invokeCommand(host.loop(), TfToken("dumpScene"), arguments));
+    EXPECT_TRUE(hdhipr::invokeCommand(host.param(), TfToken("dumpScene"), arguments));
     std::ifstream file(path);
     const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
     EXPECT_NE(text.find("/square"), std::string::npos);
@@ -49,7 +49,7 @@ TEST(Commands, clearCachesDeletesKernelsAlone) {
     const std::string kept = before ? before : "";
     setenv("XDG_CACHE_HOME", caches.c_str(), 1);
     std::filesystem::create_directories(caches / "hipr" / "pipelines" / "some");
-    EXPECT_TRUE(hdhipr::invokeCommand(host.loop(), TfToken("clearCaches"), {}));
+    EXPECT_TRUE(hdhipr::invokeCommand(host.param(), TfToken("clearCaches"), {}));
     EXPECT_FALSE(std::filesystem::exists(caches / "hipr" / "pipelines" / "some"));
     before ? setenv("XDG_CACHE_HOME", kept.c_str(), 1) : unsetenv("XDG_CACHE_HOME");
     std::filesystem::remove_all(caches);
@@ -64,7 +64,7 @@ TEST(Commands, reloadTexturesFromAnotherThreadWhileItRenders) {
     std::atomic<bool> stop{false};
     std::thread other([&] {
         while (!stop.load()) {
-            hdhipr::invokeCommand(host.loop(), TfToken("reloadTextures"), {});
+            hdhipr::invokeCommand(host.param(), TfToken("reloadTextures"), {});
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
     });
@@ -86,8 +86,8 @@ TEST(Commands, thatFailSaySo) {
     TestWarnings warnings;
     VtDictionary arguments;
     arguments["file"] = VtValue(std::string("/no/such/folder/scene.txt"));
-    EXPECT_FALSE(hdhipr::invokeCommand(host.loop(), TfToken("dumpScene"), arguments));
-    EXPECT_FALSE(hdhipr::invokeCommand(host.loop(), TfToken("makeCoffee"), {}));
+    EXPECT_FALSE(hdhipr::invokeCommand(host.param(), TfToken("dumpScene"), arguments));
+    EXPECT_FALSE(hdhipr::invokeCommand(host.param(), TfToken("makeCoffee"), {}));
     EXPECT_EQ(warnings.texts().size(), 2u);
 }
 

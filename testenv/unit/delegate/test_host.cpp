@@ -67,8 +67,12 @@ TestHost::~TestHost() {
     _index.reset();
 }
 
+HdHiprRenderParam& TestHost::param() {
+    return *static_cast<HdHiprRenderParam*>(_delegate->GetRenderParam());
+}
+
 hdhipr::RenderLoop& TestHost::loop() {
-    return *static_cast<HdHiprRenderParam*>(_delegate->GetRenderParam())->loop();
+    return *param().loop();
 }
 
 HdHiprRenderBuffer& TestHost::buffer(std::string const& aov) {

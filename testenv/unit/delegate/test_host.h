@@ -32,6 +32,7 @@ public:
     HdHiprRenderDelegate& delegate() { return *_delegate; }
     HdRenderIndex& index() { return *_index; }
     HdRenderPass& pass() { return *_pass; }
+    HdHiprRenderParam& param();
     hdhipr::RenderLoop& loop(); ///< of the delegate, which must have a device
     HdHiprRenderBuffer& buffer(std::string const& aov);
 

@@ -1,10 +1,12 @@
 /// Volumes through Hydra: what reaches the renderer and the picture, and what is said of those that do not.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "plugin/hdHipr/commands.h"
 #include "pxr/base/gf/vec3f.h"
 #include "pxr/imaging/hd/field.h"
 #include "pxr/usd/sdf/assetPath.h"
@@ -70,6 +72,19 @@ TEST_F(Volumes, absorbByTheirDensityAndItsScale) {
     setValue(prim, "hipr:volume:density", VtValue(3.f));
     host.scene().tracker().MarkRprimDirty(SdfPath("/absorbing"), HdChangeTracker::DirtyPrimvar);
     EXPECT_NEAR(shown(), std::exp(-1.5f), 0.01f);
+    EXPECT_THAT(warnings.texts(), ElementsAre());
+}
+
+TEST_F(Volumes, readTheirFilesAgainByCommand) {
+    const std::string file = box("reread", 0.5);
+    const auto written = std::filesystem::last_write_time(file);
+    add("/reread", file);
+    EXPECT_NEAR(shown(), std::exp(-0.5f), 0.01f);
+    EXPECT_EQ(box("reread", 2), file);
+    std::filesystem::last_write_time(file, written); // as if within the clock's resolution
+    EXPECT_NEAR(shown(), std::exp(-0.5f), 0.01f);
+    EXPECT_TRUE(hdhipr::invokeCommand(host.param(), TfToken("reloadTextures"), {}));
+    EXPECT_NEAR(shown(), std::exp(-2.f), 0.01f);
     EXPECT_THAT(warnings.texts(), ElementsAre());
 }
 
