@@ -6,6 +6,7 @@
 
 #if PXR_VERSION >= 2208
 
+#include "pxr/imaging/hd/dependencyForwardingSceneIndex.h"
 #include "pxr/imaging/hd/retainedDataSource.h"
 #include "pxr/imaging/hd/sceneIndexPlugin.h"
 #include "pxr/imaging/hd/sceneIndexPluginRegistry.h"
@@ -13,6 +14,9 @@
 #include "pxr/imaging/hdsi/implicitSurfaceSceneIndex.h"
 #if PXR_VERSION >= 2308
 #include "pxr/imaging/hdsi/nurbsApproximatingSceneIndex.h"
+#endif
+#if PXR_VERSION >= 2311
+#include "pxr/imaging/hdsi/renderSettingsFilteringSceneIndex.h"
 #endif
 #if PXR_VERSION >= 2405
 #include "pxr/imaging/hdsi/tetMeshConversionSceneIndex.h"
@@ -34,6 +38,15 @@ HdContainerDataSourceHandle shapesToMeshes() {
     const std::vector<HdDataSourceBaseHandle> fates(shapes.size(), toMesh);
     return HdRetainedContainerDataSource::New(shapes.size(), shapes.data(), fates.data());
 }
+
+#if PXR_VERSION >= 2311
+/// As HdsiRenderSettingsFilteringSceneIndex wants it: whose attributes are settings of ours.
+HdContainerDataSourceHandle settingNamespaces() {
+    return HdRetainedContainerDataSource::New(
+        HdsiRenderSettingsFilteringSceneIndexTokens->namespacePrefixes,
+        HdRetainedTypedSampledDataSource<VtArray<TfToken>>::New({TfToken("hipr")}));
+}
+#endif
 
 /// Has a mesh look at its light again when that is edited: Hydra knows no dirty bit of meshes for lights, but
 /// one for what they are made of.
@@ -87,6 +100,11 @@ protected:
 #if PXR_VERSION >= 2408
         scene = HdsiLightLinkingSceneIndex::New(scene, nullptr);
 #endif
+#if PXR_VERSION >= 2311
+        scene = HdsiRenderSettingsFilteringSceneIndex::New(scene, settingNamespaces());
+#endif
+        // What a prim is computed from counts as its own edit: render settings from products, for one.
+        scene = HdDependencyForwardingSceneIndex::New(scene);
         return TfCreateRefPtr(new MeshLightSceneIndex(scene));
     }
 };
@@ -96,9 +114,11 @@ TF_REGISTRY_FUNCTION(TfType) {
 }
 
 TF_REGISTRY_FUNCTION(HdSceneIndexPlugin) {
+    // After those of applications, on whose data prims may depend: which render settings are active, say.
+    constexpr HdSceneIndexPluginRegistry::InsertionPhase late = 1000;
     HdSceneIndexPluginRegistry::GetInstance().RegisterSceneIndexForRenderer(
-        "HiPR", TfToken("HdHiprSceneIndexPlugin"), nullptr, 0,
-        HdSceneIndexPluginRegistry::InsertionOrderAtStart);
+        "HiPR", TfToken("HdHiprSceneIndexPlugin"), nullptr, late,
+        HdSceneIndexPluginRegistry::InsertionOrderAtEnd);
 }
 
 PXR_NAMESPACE_CLOSE_SCOPE
