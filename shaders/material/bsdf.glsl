@@ -106,7 +106,7 @@ vec3 evalReflection(Surface s, vec3 o, vec3 i, vec3 h, Facets facets, vec2 lobeS
     vec3 below = s.below, interfaceIn;
     if (s.openPbr) {
         vec2 towards = baseAlbedo(s, s.dense, i);
-        interfaceIn = vec3(sheetReflectance(s, towards.x));
+        interfaceIn = vec3(s.inside ? 0.0 : sheetReflectance(s, towards.x));
         float missing = 1.0 - single.x - single.y;
         float lost = s.thinWalled ? missing : 1.0 - towards.y;
         specular += (s.multiMetal * missing + s.multiUp * lost) * i.z / PI;

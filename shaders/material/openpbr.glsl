@@ -34,9 +34,9 @@ void setOpenPbrBase(inout Surface s, MaterialInputs inputs, uint flags) {
     s.f0 = weight * s.diffuse;
     s.edge = edgeOf(s.f0, tint);
     s.metal = vec3(metalness * clamp(inputs.specularWeight, 0.0, 1.0));
-    s.dielectric = (1.0 - metalness) * (s.inside ? vec3(1.0) : tint);
     s.transmission = transmission;
     s.glass = (1.0 - metalness) * transmission;
+    s.dielectric = s.inside ? vec3(s.glass) : (1.0 - metalness) * tint; // what scatters lies on the interface's outside alone
     s.glassTint = clamp(inputs.transmissionColor, 0.0, 1.0);
     s.film = clamp(inputs.filmWeight, 0.0, 1.0);
     s.filmIor = clamp(inputs.filmIor, 0.1, 10.0);
@@ -128,6 +128,7 @@ void setOpenPbrViewer(inout Surface s, float darkening, vec3 o, vec3 coatO) {
         kept = min(kept + filmKept, 1.0);
     }
     s.interfaceMean = vec3(sheetReflectance(s, mean.x));
+    if (s.inside) s.interfaceOut = s.interfaceMean = vec3(0.0);
     s.orenNayarOut = orenNayarAlbedo(cosine, s.diffuseRoughness);
     setOpenPbrMulti(s, single, kept, mean);
 

@@ -212,7 +212,7 @@ TEST(OpenPbr, RandomWhiteMaterialsKeepAllLight) {
         errors.push_back(0.0);
         for (int c = 0; c < 3; ++c)
             errors.back() = std::max(errors.back(), std::abs(albedo[c] - 1.0));
-        EXPECT_LT(errors.back(), p.frontFacing ? 0.012 : 0.05) << "material " << i << ", cosine " << cosine;
+        EXPECT_LT(errors.back(), 0.02) << "material " << i << ", cosine " << cosine;
     }
     std::sort(errors.begin(), errors.end());
     EXPECT_LT(errors[errors.size() * 99 / 100], 0.01);
