@@ -96,13 +96,13 @@ TEST(TextureReload, ReadsLightProfilesToo) {
     for (const bool mesh : {false, true}) {
         SCOPED_TRACE(mesh);
         write("1 1 1");
-        Stage edited(fewSamples());
+        Stage edited(withSamples(4));
         setUp(edited, mesh);
         const ColorPicture before = edited.color();
         write("5 2 1");
         EXPECT_FALSE(edited.renderer->reloadTextures().empty());
         edited.render();
-        Stage fresh(fewSamples());
+        Stage fresh(withSamples(4));
         setUp(fresh, mesh);
         EXPECT_FALSE(equal(before, edited.color()));
         EXPECT_TRUE(equal(fresh.color(), edited.color()));

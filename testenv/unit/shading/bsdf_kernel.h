@@ -27,7 +27,11 @@ struct SurfaceParameters {
     uint32_t frontFacing = 1;
 };
 
-/// An OpenPBR Surface with some inputs set; colours of one number are grey.
+inline glm::vec3 grey(double value) {
+    return glm::vec3(float(value));
+}
+
+/// An OpenPBR Surface with some inputs set; numbers are grey colours.
 using OpenPbrValues = std::initializer_list<std::pair<OpenPbrInput, glm::vec3>>;
 SurfaceParameters openPbr(OpenPbrValues values);
 /// The same with further inputs set.

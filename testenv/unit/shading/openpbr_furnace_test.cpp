@@ -12,10 +12,6 @@ namespace {
 
 using In = OpenPbrInput;
 
-glm::vec3 grey(double value) {
-    return glm::vec3(float(value));
-}
-
 /// White all over, so that nothing is absorbed.
 SurfaceParameters white(OpenPbrValues values) {
     return with(openPbr({{In::BaseColor, grey(1)}, {In::SubsurfaceColor, grey(1)}}), values);

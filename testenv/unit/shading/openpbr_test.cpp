@@ -12,10 +12,6 @@ namespace {
 
 using In = OpenPbrInput;
 
-glm::vec3 grey(double value) {
-    return glm::vec3(float(value));
-}
-
 /// A smooth coat on nothing, with a normal of its own.
 SurfaceParameters tiltedCoat(double roughness) {
     SurfaceParameters p = openPbr({{In::BaseWeight, grey(0)},
