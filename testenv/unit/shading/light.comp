@@ -31,7 +31,7 @@ layout(push_constant, scalar) uniform Push {
 } push;
 
 vec3 met(SceneRecord scene, vec3 direction, bool cameraRay, float bsdfPdf) {
-    return lightsAlongRay(scene, Ray(push.point, 0.0, direction, 1e30, 0.0), 1e30, cameraRay, bsdfPdf, push.normal, 0u) +
+    return lightsAlongRay(scene, Ray(push.point, 0.0, direction, 1e30, 0.0, 0u), 1e30, cameraRay, bsdfPdf, push.normal, 0u) +
            environmentRadiance(scene, direction, cameraRay, bsdfPdf, 0u);
 }
 
