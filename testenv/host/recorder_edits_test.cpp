@@ -108,7 +108,8 @@ TEST_F(RecorderEdits, TheLiveSceneIsTheSceneOpenedAfresh) {
     const std::string opinions =
         "over \"World\"\n{\n over \"Red\"\n {\n double3 xformOp:translate = (-1, 1.2, 0)\n }\n}\n";
     const Outcome fresh =
-        recordStage(editedScene(opinions), {"-o", file("fresh.exr"), "--dump-scene", file("fresh.txt")});
+        recordStage(editedScene(opinions), {"-o", file("fresh.exr"), "--dump-scene", file("fresh.txt"),
+                                            "--set", "enableInteractive=true"}); // as with edits
     ASSERT_EQ(fresh.code, 0) << fresh.text;
     const std::string before = readText(file("dump.0.txt")), after = readText(file("dump.1.Move-red-up.txt"));
     EXPECT_EQ(after, readText(file("fresh.txt")));
