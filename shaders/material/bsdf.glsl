@@ -214,9 +214,7 @@ vec3 sampleBsdfDirection(Surface s, vec3 wo, vec4 u, out uint lobe) {
     vec3 reflected = 2.0 * cosine * h - o;
     if (lobe == LOBE_GLASS && u.w >= reflectedShare(interfaceFresnel(s, cosine))) {
         if (s.thinWalled) return reflected.z > 0.0 ? frame * vec3(reflected.xy, -reflected.z) : vec3(0.0);
-        float inverse = 1.0 / s.eta; // Snell's law: Walter eq. 40
-        float cosT = sqrt(max(0.0, 1.0 - inverse * inverse * (1.0 - cosine * cosine)));
-        vec3 refracted = normalize((inverse * cosine - cosT) * h - inverse * o);
+        vec3 refracted = refractedBy(h, o, cosine, s.eta);
         return refracted.z < 0.0 ? frame * refracted : vec3(0.0);
     }
     return reflected.z > 0.0 ? frame * reflected : vec3(0.0);

@@ -40,7 +40,7 @@ const float FILM_AT[FILM_RINGS] = float[](0.0694318442, 0.3300094782, 0.66999052
 const float FILM_SHARE[FILM_RINGS] = float[](0.1739274226, 0.3260725774, 0.3260725774, 0.1739274226);
 
 // How much a film adds to what the base's facets reflect of light from `o`, and to that plus what they transmit.
-void addFilmAlbedo(Surface s, vec3 o, out vec3 reflected, out vec3 kept) {
+void filmAlbedo(Surface s, vec3 o, out vec3 reflected, out vec3 kept) {
     float lambdaO = ggxLambda(o, s.alpha);
     bool even = s.anisotropy == 0.0; // half a turn will do
     if (even) o = vec3(length(o.xy), 0.0, o.z);

@@ -49,11 +49,16 @@ float reflectedPart(vec3 o, vec3 h, vec2 alpha, float lambdaO) {
     return i.z > 0.0 ? (1.0 + lambdaO) / (1.0 + lambdaO + ggxLambda(i, alpha)) : 0.0;
 }
 
-// The same of what it refracts, on its way down. Snell's law: Walter eq. 40.
-float refractedPart(vec3 o, vec3 h, vec2 alpha, float eta) {
-    float cosine = dot(o, h), inverse = 1.0 / eta;
+// Where a facet refracts light from `o` to, whose cosine to it is `cosine`. Snell's law: Walter eq. 40.
+vec3 refractedBy(vec3 h, vec3 o, float cosine, float eta) {
+    float inverse = 1.0 / eta;
     float cosT = sqrt(max(0.0, 1.0 - inverse * inverse * (1.0 - cosine * cosine)));
-    vec3 i = normalize((inverse * cosine - cosT) * h - inverse * o);
+    return normalize((inverse * cosine - cosT) * h - inverse * o);
+}
+
+// As reflectedPart(), of what a facet refracts, on its way down.
+float refractedPart(vec3 o, vec3 h, vec2 alpha, float eta) {
+    vec3 i = refractedBy(h, o, dot(o, h), eta);
     return i.z < 0.0 ? 1.0 / (1.0 + ggxLambda(i, alpha)) : 0.0;
 }
 

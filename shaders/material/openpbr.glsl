@@ -123,7 +123,7 @@ void setOpenPbrViewer(inout Surface s, float darkening, vec3 o, vec3 coatO) {
     vec3 kept = vec3(seen.y);
     if (s.film > 0.0) {
         vec3 filmReflected, filmKept;
-        addFilmAlbedo(s, o, filmReflected, filmKept);
+        filmAlbedo(s, o, filmReflected, filmKept);
         s.interfaceOut = clamp(s.interfaceOut + filmReflected, 0.0, 1.0);
         kept = min(kept + filmKept, 1.0);
     }

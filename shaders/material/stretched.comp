@@ -9,7 +9,6 @@ layout(local_size_x = 64) in;
 layout(buffer_reference, scalar, buffer_reference_align = 8) writeonly buffer TableRef { vec2 v[]; };
 layout(push_constant, scalar) uniform Push { uint64_t table; } push;
 
-
 shared vec2 sums[gl_WorkGroupSize.x];
 
 struct Lobe {
